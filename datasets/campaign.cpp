@@ -93,7 +93,8 @@ void read_campaign_table(ConfigTable table, Campaign& campaign, ReadFor purpose)
   const std::size_t level = table.choice("isa", {"v2", "v3", "v4"}, 1);
   campaign.isa = std::array{core::InstructionLevel::v2, core::InstructionLevel::v3,
                             core::InstructionLevel::v4}[level];
-  campaign.sample = table.choice("realisation", {"mean", "sample"}, 0) == 1;
+  if (table.has("realisation"))
+    campaign.sample = table.choice("realisation", {"mean", "sample"}, 0) == 1;
   campaign.samples_per_cell = table.number("samples_per_cell", renderer::kSamplesPerCell, 0.0);
   campaign.sensor = table.text("sensor", "");
   campaign.archives = table.choice("runs_as", {"folders", "archives"}, 0) == 1;

@@ -10,7 +10,7 @@
 //   frames = { count = 5, from = 0.3, to = 0.95 }       spread over that part of the flight
 //   products = ["bscope", "labels"]
 //   isa = "v3"                         every machine makes the same bytes
-//   realisation = "mean"               or "sample"
+//   realisation = "mean"               or "sample"; optional, else as each scene says
 //   samples_per_cell = 4               optional, as --rays-per-cell
 //   sensor = "hivision"                optional, a file beside this one, else a name
 //   runs_as = "folders"                or "archives": one tar a run
@@ -112,7 +112,7 @@ struct Campaign {
   FrameSpread frames;
   std::vector<std::string> products;
   core::InstructionLevel isa = core::InstructionLevel::v3;
-  bool sample = false;
+  std::optional<bool> sample;  // one realisation; else as each scene says
   double samples_per_cell = 0.0;
   std::string sensor;
   bool archives = false;  // run_files.h

@@ -11,8 +11,8 @@
 //   signal to clutter   strongest cell of the mask in the B-scope over the noise plus the mean of the
 //              cells within kRing rows of it, and as many columns behind the reach of the azimuth beam,
 //              that lie more than a row and that reach away from the mask
-// Touchdown zone: the first 900 m behind the threshold, or half of a runway shorter than 1800 m, where
-// its lights are (ICAO Annex 14, 5.3.13). Corners are those of the pavement. A runway's near end is the
+// Touchdown zone: the first 900 m behind the threshold, or half of what lies beyond it where that is less
+// than 1800 m, where its lights are (ICAO Annex 14, 5.3.13). Corners are those of the pavement. A runway's near end is the
 // one whose threshold is nearer.
 // Neglected: refraction; parts of an object smaller than a triangle.
 #pragma once

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/files.h"
 #include "datasets/draw.h"
 #include "tests/terrain/ascii_grid.h"
 
@@ -54,6 +55,32 @@ TEST_CASE("Runs by scene are all runs, those of a scene one after the other as t
   CHECK(datasets::by_scene(two.campaign(), {0, 1, 2, 3}) == std::vector<int>{1, 3, 0, 2});
   CHECK(datasets::by_scene(two.campaign(), {3, 2}) == std::vector<int>{3, 2});
   CHECK(datasets::by_scene(two.campaign(), {}).empty());
+}
+
+// What a scene says of its own draws is not undone by a campaign that says nothing of them.
+TEST_CASE("A campaign shows what each scene shows, unless it says otherwise", "[worker]") {
+  const tests::TemporaryFolder folder;
+  fs::create_directory(folder.path() / "drawn");
+  std::string scene =
+      core::read_file(FANBEAM_SOURCE_DIR "/scenes/flat-grass/scene.toml", 1U << 20U);
+  REQUIRE(scene.find("[accuracy]") == std::string::npos);
+  folder.write("drawn/scene.toml", scene + "\n[accuracy]\nrealisation = \"sample\"\n");
+  const auto picture = [&](const std::string& line) {
+    core::ProblemList problems;
+    const datasets::Campaign campaign = datasets::read_campaign(
+        folder.write("campaign.toml", "[campaign]\nname = \"x\"\nscenes = [\"drawn\"]\n" + line +
+                                          "frames = { count = 1 }\nproducts = [\"bscope\"]\n"
+                                          "samples_per_cell = 0.3\nisa = \"v2\"\n"),
+        problems);
+    problems.throw_if_errors();
+    const fs::path out = folder.path() / ("out" + std::to_string(line.size()));
+    datasets::Worker worker(campaign, {out, FANBEAM_SOURCE_DIR, {}, true});
+    REQUIRE(worker.make(0) == datasets::RunEnd::made);
+    return core::read_file(out / "runs" / "000000" / "bscope" / "00000.png", 1U << 24U);
+  };
+  const std::string own = picture("");
+  CHECK(own == picture("realisation = \"sample\"\n"));
+  CHECK(own != picture("realisation = \"mean\"\n"));
 }
 
 // A scene whose file is gone can be flown as long as it is held, and no longer.
