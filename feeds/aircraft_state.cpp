@@ -70,10 +70,13 @@ PacketFault fault_in(const AircraftState& state) {
   return possible(state) ? PacketFault::none : PacketFault::range;
 }
 
+core::Geodetic place_on_earth(double latitude_rad, double longitude_rad, double altitude_m) {
+  return {std::clamp(latitude_rad, -core::kPi / 2, core::kPi / 2), longitude_rad, altitude_m};
+}
+
 core::Pose pose_of(const AircraftState& state) {
   core::Pose pose;
-  pose.position = {std::clamp(state.latitude_rad, -core::kPi / 2, core::kPi / 2),
-                   state.longitude_rad, state.altitude_m};
+  pose.position = place_on_earth(state.latitude_rad, state.longitude_rad, state.altitude_m);
   pose.q_NB = core::quaternion_from(state.attitude);
   pose.v_N_mps = state.v_N_mps;
   return pose;

@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
+#include "core/geodetic.h"
 #include "core/pose.h"
 
 namespace fanbeam::feeds {
@@ -45,6 +46,9 @@ PacketFault fault_in(const AircraftState& state);
 
 // A latitude, longitude and altitude within those limits.
 bool is_on_earth(double latitude_rad, double longitude_rad, double altitude_m);
+
+// Such a place on the ellipsoid, at the pole where rounding led beyond it; the height is the altitude.
+core::Geodetic place_on_earth(double latitude_rad, double longitude_rad, double altitude_m);
 
 // At time 0; the height is `altitude_m`. Of a state without fault.
 core::Pose pose_of(const AircraftState& state);

@@ -32,7 +32,7 @@ std::optional<glm::dvec3> local_m(const scenes::Scene& scene, core::VerticalDatu
            scene.frame.north_east_down_at(entity->position) * (entity->q_NB * place);
   }
   if (!feeds::is_on_earth(place.x, place.y, place.z)) return std::nullopt;
-  core::Geodetic at{place.x, place.y, place.z};
+  core::Geodetic at = feeds::place_on_earth(place.x, place.y, place.z);
   at.height_m += datum_height_m(at, datum);
   return scene.frame.to_local_m(at);
 }

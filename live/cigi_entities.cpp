@@ -44,7 +44,7 @@ CigiEntities::Placed CigiEntities::place(const cigi::EntityControl& packet, doub
   if (before == entities_.end() && entities_.size() >= kMostEntities) return Placed::too_many;
   Entity now;
   now.time_s = time_s;
-  now.pose.position = {packet.place.x, packet.place.y, packet.place.z};
+  now.pose.position = feeds::place_on_earth(packet.place.x, packet.place.y, packet.place.z);
   now.pose.position.height_m = terrain::ellipsoidal_height_m(now.pose.position, datum_);
   now.pose.q_NB = core::quaternion_from(packet.attitude);
   constexpr double kMostApart_s = 1.0, kFastest_mps = 2000.0;

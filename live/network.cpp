@@ -4,6 +4,7 @@
 #include <atomic>
 #include <charconv>
 #include <chrono>
+#include <exception>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -201,8 +202,12 @@ struct Network::Inside {
           if (error == asio::error::operation_aborted) return;
           if (!error) {
             const std::string from = sender(receiver.from);
-            receiver.datagram({receiver.bytes.data(), size},
-                              {from, receiver.from.port(), receiver.peers.admits(from)});
+            try {
+              receiver.datagram({receiver.bytes.data(), size},
+                                {from, receiver.from.port(), receiver.peers.admits(from)});
+            } catch (const std::exception&) {  // no datagram ends the flight
+              ++faults;
+            }
           }
           receive(receiver);
         });
@@ -225,6 +230,7 @@ struct Network::Inside {
   std::vector<std::unique_ptr<tcp::acceptor>> acceptors;
   std::vector<std::unique_ptr<Receiver>> receivers;
   std::thread thread, listener;
+  std::atomic<std::uint64_t> faults{0};
 };
 
 Network::Network(const Desk& desk, Hub& hub, std::chrono::milliseconds patience)
@@ -296,5 +302,7 @@ void Network::start() {
 }
 
 int Network::clients() const { return inside_->room.viewers; }
+
+std::uint64_t Network::faults() const { return inside_->faults; }
 
 }  // namespace fanbeam::live

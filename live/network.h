@@ -72,6 +72,8 @@ class Network {
 
   void start();
   int clients() const;  // that watch frames
+  // Datagrams whose function threw: each is of no use, and the next is heard.
+  std::uint64_t faults() const;
 
  private:
   struct Inside;

@@ -105,7 +105,11 @@ class LiveRun {
         weather->follow();
         now.weather_refusal = weather->refusal();
       }
-      if (listens) listener_.tell(now);
+      if (listens) {
+        listener_.tell(now);
+        if (const std::uint64_t faults = network_.faults(); faults > 0)
+          now.bad_packets.emplace_back("a fault of fanbeam's", faults);
+      }
       if (listens && settings_.lockstep) listener_.before_frame(network_);
       sinks.write(hub_.newest());
       show_(now, network_.clients());

@@ -215,6 +215,36 @@ TEST_CASE("F14 an entity whose place cannot be gives no pose and is counted by i
                                                            {"with a position that cannot be", 3}});
 }
 
+// The geoid's grid ends at the pole: the thread that listens ended the program, the channel's the flight.
+TEST_CASE("A place that rounding led beyond the pole is the pole, above the geoid too", "[cigi]") {
+  const tests::TemporaryFolder folder;
+  const auto session =
+      tests::live_session(folder, tests::replaced(tests::kSmallScene, "vertical_datum = \"scene\"",
+                                                  "vertical_datum = \"ellipsoid\""));
+  CigiIg ig(*session, core::VerticalDatum::egm96);
+  std::uint32_t frame = 0;
+  for (const double latitude_deg : {90.0000005, -90.0000005}) {
+    const auto place = [&](Packet packet, std::size_t at) {
+      return packet.put(at, latitude_deg).put(at + 8, 10.0).put(at + 16, 300.0);
+    };
+    ig.take(message(++frame, {entity(latitude_deg, 10.0, 300.0),
+                              height_request(1, latitude_deg, 10.0, 300.0),
+                              place(place(Packet(25, 64, false), 8), 32).put(48, 400.0).bytes(),
+                              place(Packet(26, 56, false).put(20, 100.0F), 24).bytes()}),
+            "host");
+    const auto letters = ig.mailbox().after(0);
+    REQUIRE(letters.size() == frame);
+    const core::Geodetic& at = letters.back().pose.position;
+    CHECK(std::abs(at.latitude_rad) == core::kPi / 2);
+    CHECK(at.height_m == 300.0 + terrain::egm96_geoid_height_m(at.latitude_rad, at.longitude_rad));
+    // Each is answered.
+    CHECK(packets_in(ig.begin_frame()).size() == 4);
+  }
+  live::Status status;
+  ig.tell(status);
+  CHECK(status.unused_packets.empty());
+}
+
 TEST_CASE("Weather and wet ground of a host come into force with the next frame", "[cigi]") {
   Station station;
   const Bytes wet = Packet(15, 8, false).put<std::uint16_t>(4, 1).put<std::uint8_t>(6, 1).bytes();

@@ -309,6 +309,26 @@ TEST_CASE("Datagrams count from peers alone, where there is a list of them", "[n
   wait_for([&] { return known == 3 && foreign == 3; });
 }
 
+// It ended the program.
+TEST_CASE("A datagram that its function throws at is counted, and the next is heard",
+          "[network][threads]") {
+  WebStation station;
+  std::atomic<int> heard{0};
+  const std::uint16_t port = station.network.receive(
+      {"127.0.0.1", 0}, [&](std::span<const std::uint8_t> bytes, const live::Sender&) {
+        if (bytes[0] == 'x') core::throw_input_error(core::ErrorClass::range, "x", "x", "y");
+        if (bytes[0] == 'z') throw std::bad_alloc();
+        ++heard;
+      });
+  station.network.start();
+  asio::io_context context;
+  udp::socket socket(context, udp::v4());
+  for (const char* bytes : {"y", "x", "z", "y"})
+    socket.send_to(asio::buffer(bytes, 1), {asio::ip::address_v4::loopback(), port});
+  wait_for([&] { return heard == 2; });
+  CHECK(station.network.faults() == 2);
+}
+
 TEST_CASE("What is sent goes out from the port that listens", "[network][threads]") {
   WebStation station;
   std::atomic<int> heard{0};
