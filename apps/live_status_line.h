@@ -4,11 +4,17 @@
 #include <cstdint>
 #include <cstdio>
 #include <string>
+#include <string_view>
 
 #include "live/hub.h"
 #include "live/mailbox.h"
 
 namespace fanbeam::apps {
+
+// As much of it as is taken at once; no word of what is not. Who prints on the channel's thread must neither
+// wait for whoever reads (a terminal that Ctrl-S holds, a pipe that is full) nor end the flight where nobody
+// reads any more.
+void tell_without_waiting(int descriptor, std::string_view text);
 
 // One line of a terminal on the standard error, made anew twice a second; beside it, terminal or not, a
 // line a second at most about packets of no use, poses and weather that are refused.

@@ -54,6 +54,9 @@ class Child {
   // Ctrl-C on its terminal, which strikes every process of the group in the foreground.
   void interrupt() const { REQUIRE(::write(terminal_, "\x03", 1) == 1); }
 
+  // Ctrl-S: its terminal takes no more.
+  void hold_terminal() const { REQUIRE(::write(terminal_, "\x13", 1) == 1); }
+
   bool running() {
     if (process_ > 0 && waitpid(process_, &status_, WNOHANG) == process_) process_ = 0;
     return process_ > 0;

@@ -4,10 +4,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <thread>
 
+#include "apps/live_status_line.h"
 #include "core/files.h"
 #include "tests/apps/child.h"
 #include "tests/apps/program.h"
@@ -397,6 +399,85 @@ TEST_CASE("A pipe that nobody reads holds neither frames nor the end up", "[live
   child.wait_until_it_handles_signals();
   wait_ms(2000.0);
   child.send(SIGTERM);
+  const int status = child.wait();
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 0);
+}
+
+// Each such line ended the flight, or stopped it for as long as nobody read.
+TEST_CASE("What live tells waits for no reader and needs none", "[live]") {
+  std::signal(SIGPIPE, SIG_IGN);  // as live does
+  const std::string line(300, '\n');
+  int full = -1, terminal = -1, pipe[2] = {-1, -1};
+  REQUIRE((full = ::open("/dev/full", O_WRONLY)) >= 0);
+  apps::tell_without_waiting(full, line);
+  ::close(full);
+  REQUIRE(::pipe(pipe) == 0);
+  for (int i = 0; i < 300; ++i) apps::tell_without_waiting(pipe[1], line);  // it holds 64 KiB
+  std::string heard(300, ' ');
+  REQUIRE(::read(pipe[0], heard.data(), heard.size()) == 300);
+  CHECK(heard == line);
+  ::close(pipe[0]);
+  apps::tell_without_waiting(pipe[1], line);
+  ::close(pipe[1]);
+  int keyboard = -1;
+  REQUIRE(::openpty(&keyboard, &terminal, nullptr, nullptr, nullptr) == 0);
+  for (int i = 0; i < 1000; ++i) apps::tell_without_waiting(terminal, line);
+  // Whoever else has it goes on waiting for its own lines.
+  CHECK((::fcntl(terminal, F_GETFL) & O_NONBLOCK) == 0);
+  ::close(terminal);
+  ::close(keyboard);
+}
+
+TEST_CASE("A datagram of no use that cannot be told does not end live", "[live]") {
+  const int wire = ::socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in at{};
+  at.sin_family = AF_INET;
+  at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof at;
+  // A port that is free: left to live.
+  const int other = ::socket(AF_INET, SOCK_DGRAM, 0);
+  REQUIRE(::bind(other, reinterpret_cast<sockaddr*>(&at), size) == 0);
+  REQUIRE(::getsockname(other, reinterpret_cast<sockaddr*>(&at), &size) == 0);
+  ::close(other);
+  std::atomic<bool> ended{false};
+  std::thread sender([&] {
+    for (; !ended; wait_ms(50.0))
+      ::sendto(wire, "garbage", 7, MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&at), size);
+  });
+  const Result flown =
+      run_shell("'" FANBEAM_BINARY_DIR
+                "/bin/fanbeam' live flat-grass --http 0 --seconds 2 --from native-fdm:" +
+                std::to_string(ntohs(at.sin_port)) + " 2>/dev/full </dev/null");
+  ended = true;
+  sender.join();
+  ::close(wire);
+  CHECK(flown.exit_code == 0);
+}
+
+TEST_CASE("A terminal that Ctrl-S holds holds neither frames nor the end up", "[live]") {
+  const TemporaryFolder folder;
+  const auto film = folder.path() / "film.raw";
+  Child child({"live", "flat-grass", "--http", "0", "--to", "raw-bscope:" + film.string()}, true);
+  const auto grows = [&] {
+    std::error_code missing;
+    const auto bytes = [&] {
+      const auto size = std::filesystem::file_size(film, missing);
+      return missing ? 0 : size;
+    };
+    const auto before = bytes();
+    for (int i = 0; i < 200 && child.running(); ++i, wait_ms(50.0))
+      if (bytes() > before) return true;
+    return false;
+  };
+  REQUIRE(grows());
+  child.hold_terminal();
+  wait_ms(1500.0);  // three status lines
+  CHECK(grows());
+  const auto begin = std::chrono::steady_clock::now();
+  child.send(SIGTERM);
+  while (child.running() && seconds_since(begin) < kLiveEnds_s) wait_ms(20.0);
+  REQUIRE_FALSE(child.running());  // or it would be waited for
   const int status = child.wait();
   CHECK(WIFEXITED(status));
   CHECK(WEXITSTATUS(status) == 0);
