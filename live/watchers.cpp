@@ -108,7 +108,10 @@ class StreamWatcher : public Watcher {
       : Watcher(room.hub, room.connections, room.viewers),
         patience_(room.patience),
         stream_(std::move(socket)),
-        kind_(kind) {}
+        kind_(kind) {
+    error_code ignored;  // nothing is written while no frames come: else a dead peer would stay
+    stream_.socket().set_option(asio::socket_base::keep_alive(true), ignored);
+  }
 
   void begin() {
     message_ = "HTTP/1.1 200 OK\r\nContent-Type: " + std::string(kind_.type) +
@@ -154,6 +157,12 @@ class StreamWatcher : public Watcher {
   std::array<char, 512> heard_{};
 };
 
+// Those that left go here too: no frame may come to do so, and each keeps its memory until then.
+void let_in(const std::shared_ptr<Watcher>& watcher, Watchers& watching) {
+  std::erase_if(watching, [](const std::weak_ptr<Watcher>& one) { return one.expired(); });
+  watching.insert(watcher);
+}
+
 }  // namespace
 
 void Watcher::offer() {
@@ -182,13 +191,13 @@ bool is_stream(std::string_view path) { return stream_of(path) != nullptr; }
 
 void watch_by_socket(tcp::socket socket, const HttpRequest& request, Room& room) {
   const auto watcher = std::make_shared<SocketWatcher>(std::move(socket), room);
-  room.watching.insert(watcher);
+  let_in(watcher, room.watching);
   watcher->accept(request);
 }
 
 void watch_by_stream(tcp::socket socket, std::string_view path, Room& room) {
   const auto watcher = std::make_shared<StreamWatcher>(std::move(socket), *stream_of(path), room);
-  room.watching.insert(watcher);
+  let_in(watcher, room.watching);
   watcher->begin();
 }
 
