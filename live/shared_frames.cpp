@@ -46,8 +46,25 @@ void check_name(const std::string& name) {
                             "a name of letters, digits, '.', '-' and '_'");
 }
 
-int opened(const std::string& name, int more) {
-  const int file = shm_open(("/" + name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC | more, 0600);
+// Another one may have removed the name between opening and locking, or taken it since.
+bool has_name(const std::string& name, int file) {
+  const int other = shm_open(("/" + name).c_str(), O_RDONLY | O_CLOEXEC, 0);
+  if (other < 0) return false;
+  struct stat mine {
+  }, there{};
+  const bool same = fstat(file, &mine) == 0 && fstat(other, &there) == 0 &&
+                    mine.st_dev == there.st_dev && mine.st_ino == there.st_ino;
+  close(other);
+  return same;
+}
+
+// Of a file that is locked: nobody else takes its name away.
+void remove_name(const std::string& name, int file) {
+  if (has_name(name, file)) shm_unlink(("/" + name).c_str());
+}
+
+int opened(const std::string& name) {
+  const int file = shm_open(("/" + name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   if (file < 0) refuse(name, std::generic_category().message(errno));
   check_own(name, file);
   if (flock(file, LOCK_EX | LOCK_NB) == 0) return file;
@@ -55,15 +72,19 @@ int opened(const std::string& name, int more) {
   refuse(name, "in use by another process");
 }
 
-// Empty and locked. A lock dies with its process, so what can be locked belongs to nobody; whoever
+// Empty, locked and of that name. A lock dies with its process, so what can be locked belongs to nobody; whoever
 // still has that mapped keeps it.
 int claimed(const std::string& name) {
-  const int file = opened(name, 0);
-  struct stat facts {};
-  if (fstat(file, &facts) == 0 && facts.st_size == 0) return file;
-  shm_unlink(("/" + name).c_str());
-  close(file);
-  return opened(name, O_EXCL);
+  constexpr int kTries = 10;
+  for (int tries = 0; tries < kTries; ++tries) {
+    const int file = opened(name);
+    struct stat facts {};
+    const bool empty = fstat(file, &facts) == 0 && facts.st_size == 0;
+    if (empty && has_name(name, file)) return file;
+    if (!empty) remove_name(name, file);
+    close(file);
+  }
+  refuse(name, "taken away by another process again and again");
 }
 
 template <class T>
@@ -126,13 +147,13 @@ SharedFrames::SharedFrames(const std::string& name, const sensors::Sensor& senso
 }
 
 SharedFrames::~SharedFrames() {
-  shm_unlink(("/" + name_).c_str());
+  remove_name(name_, file_);
   munmap(memory_, bytes_);
   close(file_);
 }
 
 void SharedFrames::give_up(const std::string& why) {
-  shm_unlink(("/" + name_).c_str());
+  remove_name(name_, file_);
   close(file_);
   refuse(name_, why);
 }

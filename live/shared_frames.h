@@ -38,7 +38,7 @@ class SharedFrames {
   // of that name is another user's or one that others may open. What a process left that has ended is
   // taken over.
   SharedFrames(const std::string& name, const sensors::Sensor& sensor, double rate_Hz);
-  ~SharedFrames();  // the name is gone; who has it mapped keeps what it sees
+  ~SharedFrames();  // the name is gone, unless another has it by now; who has it mapped keeps what it sees
   SharedFrames(const SharedFrames&) = delete;
   SharedFrames& operator=(const SharedFrames&) = delete;
 

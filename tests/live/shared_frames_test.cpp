@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <memory>
 #include <thread>
 #include <vector>
 
@@ -185,6 +186,22 @@ TEST_CASE("A name in use is refused, one that a dead process left is taken over"
   SharedFrames second(name, sensor(), 16.0);
   second.write(frame_of(3));
   CHECK(Reader(name).newest()->first == 3);
+}
+
+// It was gone with the first, whose name it no longer was.
+TEST_CASE("A name that was taken away and is another's by now stays with that one",
+          "[shared_frames]") {
+  const std::string name = own_name(), file = "/dev/shm/" + name;
+  {
+    auto first = std::make_unique<SharedFrames>(name, sensor(), 16.0);
+    REQUIRE(shm_unlink(("/" + name).c_str()) == 0);
+    SharedFrames second(name, sensor(), 16.0);
+    second.write(frame_of(5));
+    first.reset();
+    REQUIRE(access(file.c_str(), F_OK) == 0);
+    CHECK(Reader(name).newest()->first == 5);
+  }
+  CHECK(access(file.c_str(), F_OK) != 0);
 }
 
 // Whoever put it there could read frames, and write over them.
