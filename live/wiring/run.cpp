@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <exception>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -40,6 +41,25 @@ class EndWatch {
  private:
   std::atomic<bool> left_{false};
   std::thread thread_;
+};
+
+// Asks for no more, also where a flight ends with an error: X-Plane would go on sending.
+class Farewell {
+ public:
+  Farewell(Listener& listener, Network& network) : listener_(listener), network_(network) {}
+  ~Farewell() {
+    try {
+      listener_.leave(network_);
+    } catch (
+        const std::exception&) {  // no memory for a letter: why the flight ended is told instead
+    }
+  }
+  Farewell(const Farewell&) = delete;
+  Farewell& operator=(const Farewell&) = delete;
+
+ private:
+  Listener& listener_;
+  Network& network_;
 };
 
 // What goes on while scenes are switched.
@@ -122,8 +142,9 @@ class LiveRun {
     settings.keep_received = wiring_.to.want_received();
     if (settings_.threads > 0) settings.threads = static_cast<unsigned>(settings_.threads);
     if (quality) settings.beside_s = [&quality] { return quality->processor_s(); };
+    std::optional<Farewell> farewell;
+    if (listens) farewell.emplace(listener_, network_);
     fly_until(end, asked, settings, each_frame);
-    if (listens) listener_.leave(network_);
     continued_.frames = hub_.status().frames;
   }
 

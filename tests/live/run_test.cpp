@@ -1,8 +1,16 @@
 // A flight by the words of a command line, without the command.
 #include "live/wiring/run.h"
 
-#include <catch2/catch.hpp>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <unistd.h>
 
+#include <array>
+#include <catch2/catch.hpp>
+#include <stdexcept>
+
+#include "feeds/xplane.h"
 #include "tests/live/live_scene.h"
 
 using namespace fanbeam;
@@ -41,6 +49,64 @@ TEST_CASE(
   REQUIRE_FALSE(frames.empty());
   CHECK(frames.back() == 2);
   CHECK(heard.use_count() == 1);  // the scene is left, and so is who heard of it
+}
+
+namespace {
+
+// A port of its own that hears what X-Plane is asked for.
+class AskedSimulator {
+ public:
+  AskedSimulator() {
+    sockaddr_in at{};
+    at.sin_family = AF_INET;
+    at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof at;
+    REQUIRE(::bind(wire_, reinterpret_cast<sockaddr*>(&at), size) == 0);
+    REQUIRE(::getsockname(wire_, reinterpret_cast<sockaddr*>(&at), &size) == 0);
+    port_ = ntohs(at.sin_port);
+    const timeval patience{2, 0};
+    REQUIRE(::setsockopt(wire_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience) == 0);
+  }
+  ~AskedSimulator() { ::close(wire_); }
+  AskedSimulator(const AskedSimulator&) = delete;
+  AskedSimulator& operator=(const AskedSimulator&) = delete;
+
+  std::uint16_t port() const { return port_; }
+  // Whether that comes before it is silent for two seconds; what comes before is passed over.
+  bool hears(const std::vector<std::uint8_t>& datagram) const {
+    std::array<std::uint8_t, 2000> bytes{};
+    for (ssize_t size = 0; (size = ::recv(wire_, bytes.data(), bytes.size(), 0)) >= 0;)
+      if (std::vector<std::uint8_t>(bytes.begin(), bytes.begin() + size) == datagram) return true;
+    return false;
+  }
+
+ private:
+  int wire_ = ::socket(AF_INET, SOCK_DGRAM, 0);
+  std::uint16_t port_ = 0;
+};
+
+}  // namespace
+
+// It went on sending, 16 times a second.
+TEST_CASE("X-Plane is asked for no more when the flight ends with an error too", "[live]") {
+  const tests::TemporaryFolder folder;
+  const AskedSimulator simulator;
+  const live::RunSettings settings{.from = {"xplane:127.0.0.1:" + std::to_string(simulator.port())},
+                                   .http = "0"};
+  const live::RunCallbacks calls{
+      .open = [&](const std::string&) { return tests::live_session(folder); },
+      .page = [](const std::string&, std::uint16_t) {},
+      .status =
+          [&] {
+            return [&](const live::Status&, int) {
+              CHECK(simulator.hears(feeds::xplane_position_request(16)));
+              throw std::runtime_error("no room");
+            };
+          }};
+  CHECK_THROWS_AS(
+      live::run_live(settings, live::wiring_of(settings, nullptr), nullptr, "here", calls),
+      std::runtime_error);
+  CHECK(simulator.hears(feeds::xplane_position_request(0)));
 }
 
 TEST_CASE("The token of the environment counts where no file of one is named", "[live]") {
