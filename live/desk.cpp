@@ -134,7 +134,11 @@ Answer Desk::answer(const Request& request) const {
   const std::size_t mark = std::min(request.target.find('?'), request.target.size());
   const std::string path = request.target.substr(0, mark);
   const bool asks = request.method == "GET" || request.method == "HEAD";
-  if (!asks && request.method != "POST") return refusal(405, "GET, HEAD or POST");
+  if (!asks && request.method != "POST") {
+    Answer refused = refusal(405, "GET, HEAD or POST");
+    refused.allow = is_control(path) ? "GET, HEAD, POST" : "GET, HEAD";
+    return refused;
+  }
   if (!asks && !request.content_type.starts_with("application/json"))
     return refusal(415, "content type application/json");
   try {

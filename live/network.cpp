@@ -85,12 +85,18 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
                    "default-src 'self'; style-src 'self' 'unsafe-inline'; script-src 'self' "
                    "'unsafe-inline'; connect-src 'self' ws:; img-src 'self' data:; "
                    "frame-ancestors 'none'");
+    if (!answer.allow.empty()) response_->set(http::field::allow, answer.allow);
     if (!answer.location.empty()) response_->set(http::field::location, answer.location);
     if (!answer.set_cookie.empty()) response_->set(http::field::set_cookie, answer.set_cookie);
     if (answer.status == 401) response_->set(http::field::www_authenticate, "Bearer");
     response_->keep_alive(request.keep_alive());
-    if (request.method() != http::verb::head) response_->body() = answer.body;
-    response_->prepare_payload();
+    // HEAD is told the length of what GET would bring.
+    if (request.method() == http::verb::head) {
+      response_->content_length(answer.body.size());
+    } else {
+      response_->body() = answer.body;
+      response_->prepare_payload();
+    }
     stream_.expires_after(room_.patience);
     http::async_write(stream_, *response_,
                       [self = shared_from_this()](error_code error, std::size_t) {

@@ -17,7 +17,7 @@ struct Answer {
   int status = 200;
   std::string type = "application/json";
   std::string body;
-  std::string location{}, set_cookie{};  // headers, where they are not empty
+  std::string location{}, set_cookie{}, allow{};  // headers, where they are not empty
 };
 
 // {"error": why}

@@ -215,7 +215,12 @@ TEST_CASE("Another web page cannot steer", "[desk]") {
   CHECK(office.desk.answer(request).status == 415);
   request = post("/api/weather", rain);
   request.method = "PUT";
-  CHECK(office.desk.answer(request).status == 405);
+  const live::Answer other = office.desk.answer(request);
+  CHECK(other.status == 405);
+  CHECK(other.allow == "GET, HEAD, POST");
+  request.target = "/api/status?n=1";
+  CHECK(office.desk.answer(request).allow == "GET, HEAD");
+  CHECK(office.desk.answer(get("/")).allow.empty());
   CHECK(office.session->scene()->weather.rain_rate_mm_per_h == 0.0);
 }
 

@@ -125,6 +125,30 @@ TEST_CASE("A browser gets the page, and an error for what is not there", "[netwo
   CHECK_THROWS_AS(other.serve({"127.0.0.1", station.port}), core::InputError);
 }
 
+TEST_CASE("HEAD is told the length of what GET brings, and another method what is allowed",
+          "[network][threads]") {
+  WebStation station;
+  station.network.start();
+  const std::string host = " HTTP/1.1\r\nHost: " + station.host() + "\r\n",
+                    close = "Connection: close\r\n\r\n";
+  const auto head_of = [](const std::string& answer) {
+    return answer.substr(0, answer.find("\r\n\r\n") + 4);
+  };
+  for (const char* target : {"/api/openapi.json", "/nothing"}) {
+    INFO(target);
+    const std::string got = answer_to(station, "GET " + std::string(target) + host + close);
+    CHECK(got.size() > head_of(got).size());
+    CHECK(answer_to(station, "HEAD " + std::string(target) + host + close) == head_of(got));
+    // Nor does the next answer on the connection wait for bytes that do not come.
+    CHECK(answer_to(station,
+                    "HEAD " + std::string(target) + host + "\r\nGET " + target + host + close)
+              .ends_with(got));
+  }
+  const std::string refused = answer_to(station, "PUT /api/weather" + host + close);
+  CHECK(refused.starts_with("HTTP/1.1 405"));
+  CHECK(refused.find("\r\nAllow: GET, HEAD, POST\r\n") != std::string::npos);
+}
+
 TEST_CASE("Nonsense and floods are cut off, and the next visitor is served", "[network][threads]") {
   WebStation station;
   station.network.start();
