@@ -1,8 +1,10 @@
 #include "bindings/python/interruptible.h"
 
 #include <pybind11/pybind11.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <exception>
 #include <future>
 #include <optional>
 
@@ -16,16 +18,35 @@ bool on_main_thread() {
   return threading.attr("current_thread")().is(threading.attr("main_thread")());
 }
 
+// A thread that asks for the lock while Python ends is ended there by pthread_exit, which unwinds like an
+// exception, but through nothing that may not throw: it would end the program. Python waits for no such thread.
+void take_lock(PyThreadState* state) {
+  try {
+    PyEval_RestoreThread(state);
+  } catch (...) {
+    for (;;) ::pause();
+  }
+}
+
+// py::gil_scoped_release asks for the lock in its destructor.
+void run_unlocked(const std::function<void()>& work) {
+  PyThreadState* const state = PyEval_SaveThread();
+  std::exception_ptr thrown;
+  try {
+    work();
+  } catch (...) {
+    thrown = std::current_exception();
+  }
+  take_lock(state);
+  if (thrown) std::rethrow_exception(thrown);
+}
+
 }  // namespace
 
 void without_lock(const std::function<void(const core::StopToken&)>& work) {
   core::StopSource stop;
   const core::StopToken token = stop.token();
-  if (!on_main_thread()) {
-    const py::gil_scoped_release released;
-    work(token);
-    return;
-  }
+  if (!on_main_thread()) return run_unlocked([&] { work(token); });
   std::optional<py::error_already_set> raised;
   std::future<void> done = std::async(std::launch::async, [&] { work(token); });
   for (;;) {
