@@ -82,8 +82,9 @@ TEST_CASE("doctor tells an approach's height, offset and glide angle, with units
   CHECK(std::regex_search(result.output, std::regex("glide angle 3\\.00\\s+deg")));
   const nlohmann::json approach = json_of(file)["approach"];
   CHECK(approach["runway"] == "36");
-  CHECK(approach["glide_angle_deg"].get<double>() == Approx(3.0).margin(0.01));
-  CHECK(approach["height_over_threshold_m"].get<double>() == Approx(15.0).margin(0.05));
+  CHECK(approach["glide_angle_deg"].get<double>() == Approx(3.0).epsilon(0.0).margin(0.01));
+  CHECK(approach["height_over_threshold_m"].get<double>() ==
+        Approx(15.0).epsilon(0.0).margin(0.05));
   folder.write("scene.toml", kPlainOverGrass);
   run_fanbeam("doctor " + quoted(folder.path()) + " --json " + quoted(file));
   CHECK(json_of(file)["approach"].is_null());

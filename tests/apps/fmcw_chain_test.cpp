@@ -137,7 +137,7 @@ TEST_CASE("A fixed full scale saturates, and is free of samples below it", "[fmc
   // A tone's part is beyond half its amplitude two thirds of the time.
   CHECK(static_cast<double>(clipped.clipped) /
             (2.0 * static_cast<double>(clipped.beats[0].values.size())) ==
-        Approx(2.0 / 3.0).margin(0.01));
+        Approx(2.0 / 3.0).epsilon(0.0).margin(0.01));
   const double full_scale = std::pow(10.0, 0.05 * (-36.0206 - 30.0));
   double largest = 0.0;
   for (const auto& sample : clipped.beats[0].values)
@@ -194,7 +194,7 @@ TEST_CASE("Errors of channels are in the samples and bend the beam", "[fmcw]") {
   const FmcwFrame bad = made();
   REQUIRE(good.found->detections.size() == 1);
   REQUIRE(!bad.found->detections.empty());
-  CHECK(good.found->detections[0].azimuth_rad == Approx(0.0).margin(1e-3));
+  CHECK(good.found->detections[0].azimuth_rad == Approx(0.0).epsilon(0.0).margin(1e-3));
   CHECK(std::sin(bad.found->detections[0].azimuth_rad) == Approx(0.3 / core::kPi).epsilon(0.02));
   options.phase_errors_rad.pop_back();
   CHECK_THROWS_AS(fmcw_radar(options, sensor), core::InputError);
@@ -217,8 +217,8 @@ TEST_CASE("An array at two heights measures elevation", "[fmcw]") {
   const FmcwFrame frame =
       fmcw_frame(radar, sensor, {path}, 0, options, {"detections", "range-azimuth"});
   REQUIRE(frame.found->detections.size() == 1);
-  CHECK(frame.found->detections[0].azimuth_rad == Approx(0.2).margin(2e-3));
-  CHECK(frame.found->detections[0].elevation_rad == Approx(0.1).margin(4e-3));
+  CHECK(frame.found->detections[0].azimuth_rad == Approx(0.2).epsilon(0.0).margin(2e-3));
+  CHECK(frame.found->detections[0].elevation_rad == Approx(0.1).epsilon(0.0).margin(4e-3));
   CHECK_FALSE(frame.range_azimuth.values_W.empty());
   options.angle_method = signal::AngleMethod::music;
   CHECK_THROWS_AS(fmcw_radar(options, sensor), core::InputError);

@@ -144,13 +144,13 @@ TEST_CASE("A lone target stands at its cell of map, cube and list", "[fmcw]") {
 
   const nlohmann::json list = tests::json_of(out / "detections" / "00000.json")["detections"];
   const nlohmann::json& found = nearest(list, range_m, -10.0);
-  CHECK(found["range_m"].get<double>() == Approx(range_m).margin(0.03));
-  CHECK(found["radial_speed_mps"].get<double>() == Approx(-10.0).margin(0.03));
-  CHECK(core::degrees(found["azimuth_rad"].get<double>()) == Approx(12.0).margin(0.3));
+  CHECK(found["range_m"].get<double>() == Approx(range_m).epsilon(0.0).margin(0.03));
+  CHECK(found["radial_speed_mps"].get<double>() == Approx(-10.0).epsilon(0.0).margin(0.03));
+  CHECK(core::degrees(found["azimuth_rad"].get<double>()) == Approx(12.0).epsilon(0.0).margin(0.3));
   const nlohmann::json& truth = record["frames"][0]["targets"][0];
   CHECK(truth["name"] == "comer");
-  CHECK(truth["range_m"].get<double>() == Approx(40.0).margin(1e-3));
-  CHECK(truth["radial_speed_mps"].get<double>() == Approx(-10.0).margin(1e-3));
+  CHECK(truth["range_m"].get<double>() == Approx(40.0).epsilon(0.0).margin(1e-3));
+  CHECK(truth["radial_speed_mps"].get<double>() == Approx(-10.0).epsilon(0.0).margin(1e-3));
   // The element's Gaussian with it; clutter 10 %.
   CHECK(found["power_W"].get<double>() == Approx(truth["power_W"].get<double>()).epsilon(0.1));
 }
@@ -188,10 +188,10 @@ TEST_CASE("The power of a target is what reaches the samples, and the same from 
       } else {
         CHECK(found["power_W"].get<double>() == Approx(found_W[aside ? 1 : 0]).epsilon(0.05));
         CHECK(found["snr_dB"].get<double>() ==
-              Approx(snr_dB[aside ? 1 : 0]).margin(3.0));  // of other noise
+              Approx(snr_dB[aside ? 1 : 0]).epsilon(0.0).margin(3.0));  // of other noise
       }
     }
-  CHECK(10.0 * std::log10(truth_W[0] / truth_W[1]) == Approx(6.02).margin(0.02));
+  CHECK(10.0 * std::log10(truth_W[0] / truth_W[1]) == Approx(6.02).epsilon(0.0).margin(0.02));
 }
 
 TEST_CASE("fmcw gives the same bytes again, for any number of threads", "[fmcw]") {
@@ -302,9 +302,9 @@ TEST_CASE("The shipped street shows its moving cars with their speeds", "[fmcw]"
     CHECK(std::abs(speed_mps) > 7.0);
     const nlohmann::json& found = nearest(list, range_m, speed_mps);
     // Four scatterers share a few cells: within the car's front, and a cell of speed (0.13 m/s).
-    CHECK(found["range_m"].get<double>() == Approx(range_m).margin(1.0));
-    CHECK(found["radial_speed_mps"].get<double>() == Approx(speed_mps).margin(0.13));
+    CHECK(found["range_m"].get<double>() == Approx(range_m).epsilon(0.0).margin(1.0));
+    CHECK(found["radial_speed_mps"].get<double>() == Approx(speed_mps).epsilon(0.0).margin(0.13));
     CHECK(core::degrees(found["azimuth_rad"].get<double>()) ==
-          Approx(core::degrees((*truth)["azimuth_rad"].get<double>())).margin(2.0));
+          Approx(core::degrees((*truth)["azimuth_rad"].get<double>())).epsilon(0.0).margin(2.0));
   }
 }

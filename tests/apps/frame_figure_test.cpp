@@ -178,7 +178,7 @@ TEST_CASE("A runway's place in the picture: range, azimuth, elevation of what th
   CHECK(view.name == "36");
   REQUIRE(view.threshold_ahead);
   CHECK(view.threshold.range_m == Approx(std::hypot(1000.0, 100.0)));
-  CHECK(view.threshold.azimuth_rad == Approx(0.0).margin(1e-12));
+  CHECK(view.threshold.azimuth_rad == Approx(0.0).epsilon(0.0).margin(1e-12));
   CHECK(view.threshold.elevation_rad == Approx(-std::atan(0.1)));
   CHECK(view.seen.front().range_m == Approx(view.threshold.range_m));
   CHECK(view.seen.back().range_m == Approx(std::hypot(3000.0, 100.0)));
@@ -195,7 +195,7 @@ TEST_CASE("A runway's place in the picture: range, azimuth, elevation of what th
   view = seen_from(-500.0, 50.0, 0.0).at(0);
   CHECK_FALSE(view.threshold_ahead);
   CHECK(view.threshold.range_m == Approx(std::hypot(500.0, 50.0)));
-  CHECK(view.seen.front().range_m == Approx(200.0).margin(2000.0 / 256.0));
+  CHECK(view.seen.front().range_m == Approx(200.0).epsilon(0.0).margin(2000.0 / 256.0));
 }
 
 TEST_CASE("Elevations from the local horizontal do not tilt with the antenna", "[figure]") {
@@ -203,8 +203,9 @@ TEST_CASE("Elevations from the local horizontal do not tilt with the antenna", "
                    tilted = seen_from(1000.0, 100.0, 0.0, 5.0).at(0);
   const double down_rad = -std::atan(0.1);
   CHECK(level.threshold.above_level_rad == Approx(down_rad));
-  CHECK(tilted.threshold.elevation_rad == Approx(down_rad - radians(5.0)).margin(1e-3));
-  CHECK(tilted.threshold.above_level_rad == Approx(down_rad).margin(1e-3));
+  CHECK(tilted.threshold.elevation_rad ==
+        Approx(down_rad - radians(5.0)).epsilon(0.0).margin(1e-3));
+  CHECK(tilted.threshold.above_level_rad == Approx(down_rad).epsilon(0.0).margin(1e-3));
 }
 
 TEST_CASE("Marks beside a C-scope drawn from ranges count from the local horizontal", "[figure]") {

@@ -139,7 +139,8 @@ TEST_CASE("Recorded cubes of another layout give the same tracks", "[track]") {
   REQUIRE(track(untrue, out / "as-it-is", "--radar " + tests::quoted(radar)).exit_code == 0);
   const std::vector<double> own = azimuths(out / "own"), right = azimuths(out / "set-right");
   REQUIRE(right.size() == own.size());
-  for (std::size_t i = 0; i < own.size(); ++i) CHECK(right[i] == Approx(own[i]).margin(1e-3));
+  for (std::size_t i = 0; i < own.size(); ++i)
+    CHECK(right[i] == Approx(own[i]).epsilon(0.0).margin(1e-3));
   CHECK(azimuths(out / "as-it-is") != own);
   const fs::path few =
       folder.write("few.toml", tests::bytes_of(radar) + "channel_gain_dB = [1, 2]\n");
@@ -301,7 +302,7 @@ TEST_CASE("Detections that fmcw left tell the radar's speed, and the posts of a 
     return tests::json_of(tracks / "run.json");
   };
   const nlohmann::json told = track("");
-  CHECK(told["radar_speed_mps"].get<double>() == Approx(100.0 / 3.6).margin(0.01));
+  CHECK(told["radar_speed_mps"].get<double>() == Approx(100.0 / 3.6).epsilon(0.0).margin(0.01));
   REQUIRE(told["confirmed_tracks"] > 40);
   CHECK(told["moving_tracks"].get<int>() >= 6);
   CHECK(told["moving_tracks"].get<int>() <= 12);
@@ -323,9 +324,11 @@ TEST_CASE("A radar that looks askance has its own velocity in its axes, and post
   const double along_mps = 100.0 / 3.6 * std::sqrt(0.5);
   const auto told = [&](double forward_mps, double right_mps) {
     const nlohmann::json record = tests::json_of(out / "run.json");
-    CHECK(record["radar_velocity_mps"][0].get<double>() == Approx(forward_mps).margin(0.01));
-    CHECK(record["radar_velocity_mps"][1].get<double>() == Approx(right_mps).margin(0.01));
-    CHECK(record["radar_speed_mps"].get<double>() == Approx(100.0 / 3.6).margin(0.01));
+    CHECK(record["radar_velocity_mps"][0].get<double>() ==
+          Approx(forward_mps).epsilon(0.0).margin(0.01));
+    CHECK(record["radar_velocity_mps"][1].get<double>() ==
+          Approx(right_mps).epsilon(0.0).margin(0.01));
+    CHECK(record["radar_speed_mps"].get<double>() == Approx(100.0 / 3.6).epsilon(0.0).margin(0.01));
     return record;
   };
   REQUIRE(track(askance, out, "--frames 0:12").exit_code == 0);
@@ -364,15 +367,15 @@ TEST_CASE("Samples that fmcw left have the times and the speed that its record t
   REQUIRE(track(signals, out).exit_code == 0);
   const nlohmann::json record = tests::json_of(out / "run.json");
   CHECK(record["frame_s"].get<double>() == Approx(0.5 * (last_s - first_s)).epsilon(1e-12));
-  CHECK(record["radar_speed_mps"].get<double>() == Approx(100.0 / 3.6).margin(0.01));
+  CHECK(record["radar_speed_mps"].get<double>() == Approx(100.0 / 3.6).epsilon(0.0).margin(0.01));
   std::istringstream rows(tests::bytes_of(out / "measurements.csv"));
   std::set<double> times_s;
   std::string row;
   std::getline(rows, row);
   while (std::getline(rows, row)) times_s.insert(std::stod(row));
   REQUIRE(times_s.size() == 3);
-  CHECK(*times_s.begin() == Approx(first_s).margin(1e-6));
-  CHECK(*times_s.rbegin() == Approx(last_s).margin(1e-6));
+  CHECK(*times_s.begin() == Approx(first_s).epsilon(0.0).margin(1e-6));
+  CHECK(*times_s.rbegin() == Approx(last_s).epsilon(0.0).margin(1e-6));
   // A file by its name alone, from within its folder, has its time and speed too.
   const auto within =
       tests::run_fanbeam("track 00004.npy -q --radar ../radar.toml -o " + tests::quoted(out),
@@ -380,7 +383,7 @@ TEST_CASE("Samples that fmcw left have the times and the speed that its record t
   INFO(within.output);
   REQUIRE(within.exit_code == 0);
   CHECK(tests::json_of(out / "run.json")["radar_speed_mps"].get<double>() ==
-        Approx(100.0 / 3.6).margin(0.01));
+        Approx(100.0 / 3.6).epsilon(0.0).margin(0.01));
   // A record that is cut, or that does not name a file, is told; then 0.05 s count.
   const std::string whole = tests::bytes_of(signals / "run.json");
   fs::copy_file(signals / "beat/00006.npy", signals / "beat/00007.npy");
@@ -503,8 +506,8 @@ TEST_CASE("A pedestrian's legs swing about the body in the spectrogram", "[fmcw]
     return 0.0;
   };
   // Legs in opposite phase: one is at 1.4 (1 + |cos 2 pi t|) m/s; 2.8 at 1 s, 1.4 at 1.25 s.
-  CHECK(fastest_mps(4) == Approx(-2.8).margin(0.4));
-  CHECK(fastest_mps(9) == Approx(-1.4).margin(0.5));
+  CHECK(fastest_mps(4) == Approx(-2.8).epsilon(0.0).margin(0.4));
+  CHECK(fastest_mps(9) == Approx(-1.4).epsilon(0.0).margin(0.5));
   run =
       tests::run_fanbeam("fmcw street-76ghz -q --products spectrogram --spectrogram-of nobody -o " +
                          tests::quoted(folder.path() / "none"));

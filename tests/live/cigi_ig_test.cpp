@@ -30,9 +30,9 @@ TEST_CASE("A host's entity is the pose that it sent, in both byte orders", "[cig
     CHECK(std::abs(pose.position.longitude_rad - core::radians(10.002)) < 1e-9);
     CHECK(std::abs(pose.position.height_m - 321.5) < 1e-9);
     const core::Attitude attitude = core::attitude_from(pose.q_NB);
-    CHECK(core::degrees(attitude.roll_rad) == Approx(3.0).margin(1e-9));
-    CHECK(core::degrees(attitude.pitch_rad) == Approx(-2.0).margin(1e-9));
-    CHECK(core::degrees(attitude.heading_rad) == Approx(256.0).margin(1e-9));
+    CHECK(core::degrees(attitude.roll_rad) == Approx(3.0).epsilon(0.0).margin(1e-9));
+    CHECK(core::degrees(attitude.pitch_rad) == Approx(-2.0).epsilon(0.0).margin(1e-9));
+    CHECK(core::degrees(attitude.heading_rad) == Approx(256.0).epsilon(0.0).margin(1e-9));
   }
 }
 
@@ -52,8 +52,8 @@ TEST_CASE("A view's entity and offset are where the radar sits", "[cigi]") {
   const auto frame = station.session->scene()->frame;
   const glm::dvec3 moved_m = frame.to_local_m(station.pose().position) -
                              frame.to_local_m({core::radians(52.0), core::radians(10.0), 300.0});
-  CHECK(moved_m.x == Approx(0.0).margin(1e-6));
-  CHECK(moved_m.y == Approx(20.0).margin(1e-6));
+  CHECK(moved_m.x == Approx(0.0).epsilon(0.0).margin(1e-6));
+  CHECK(moved_m.y == Approx(20.0).epsilon(0.0).margin(1e-6));
   CHECK(core::degrees(core::attitude_from(station.pose().q_NB).heading_rad) == Approx(10.0));
 }
 
@@ -317,19 +317,19 @@ TEST_CASE("Heights are those of the ground, along the vertical of the place", "[
   CHECK(packets[1].first == 102);
   CHECK(packets[1].second.at<std::uint16_t>(2) == 1);
   CHECK(packets[1].second.byte(4) == 0x51);  // valid, height above, of frame ...5
-  CHECK(packets[1].second.at<double>(8) == Approx(70.0).margin(0.01));
-  CHECK(packets[2].second.at<double>(8) == Approx(50.0).margin(0.01));
+  CHECK(packets[1].second.at<double>(8) == Approx(70.0).epsilon(0.0).margin(0.01));
+  CHECK(packets[2].second.at<double>(8) == Approx(50.0).epsilon(0.0).margin(0.01));
   CHECK(packets[2].second.byte(4) == 0x53);
   REQUIRE(packets[3].first == 103);
   // 111.3 m along a runway that rises by 10 m in 1001, beside the paint of its centre line.
-  CHECK(packets[3].second.at<double>(16) == Approx(51.11).margin(0.05));
+  CHECK(packets[3].second.at<double>(16) == Approx(51.11).epsilon(0.0).margin(0.05));
   CHECK(packets[3].second.at<double>(8) + packets[3].second.at<double>(16) == Approx(120.0));
   const auto& names = station.session->scene()->world.geometry->material_names;
   INFO(names.at(packets[3].second.at<std::uint32_t>(24)));
   CHECK(names.at(packets[3].second.at<std::uint32_t>(24)).find("asphalt") != std::string::npos);
-  CHECK(packets[3].second.at<float>(32) == Approx(90.0).margin(1.0));  // level
-  CHECK(packets[4].second.bits(4, 0) == 0);                            // outside the terrain
-  CHECK(packets_in(station.ig.begin_frame()).size() == 1);             // once
+  CHECK(packets[3].second.at<float>(32) == Approx(90.0).epsilon(0.0).margin(1.0));  // level
+  CHECK(packets[4].second.bits(4, 0) == 0);                 // outside the terrain
+  CHECK(packets_in(station.ig.begin_frame()).size() == 1);  // once
 }
 
 TEST_CASE("A question with a period is answered again and again", "[cigi]") {
@@ -367,7 +367,7 @@ TEST_CASE("A line of sight ends at what stands in it", "[cigi]") {
   request.end.z += 30.0;
   const auto over = live::sight_answer(*scene, core::VerticalDatum::scene, request, {});
   CHECK((over.valid && over.visible));
-  CHECK(over.range_m == Approx(200.0).margin(0.1));
+  CHECK(over.range_m == Approx(200.0).epsilon(0.0).margin(0.1));
 
   SightRequest down;
   down.source = place({500.0, -500.0, 0.0});
@@ -380,6 +380,7 @@ TEST_CASE("A line of sight ends at what stands in it", "[cigi]") {
   height.place = down.source;
   CHECK(ground.range_m ==
         Approx(live::height_answer(*scene, core::VerticalDatum::scene, height, {}).height_m)
+            .epsilon(0.0)
             .margin(0.05));
   down.elevation_rad = core::kPi / 4;
   CHECK_FALSE(live::sight_answer(*scene, core::VerticalDatum::scene, down, {}).valid);

@@ -131,11 +131,11 @@ TEST_CASE("One ray by way of the ground has the range and the power of the close
     const double direct_m = std::hypot(kDistance_m, kHeight_m - z_m);
     const double step_rad_per_m = kDistance_m / (from_image_m * from_image_m);
     const Dihedral expected = dihedral_density(world.sensor, z_m);
-    CHECK(pair.range_m == Approx((from_image_m + direct_m) / 2).margin(2e-3));
-    CHECK(image.range_m == Approx(from_image_m).margin(2e-3));
+    CHECK(pair.range_m == Approx((from_image_m + direct_m) / 2).epsilon(0.0).margin(2e-3));
+    CHECK(image.range_m == Approx(from_image_m).epsilon(0.0).margin(2e-3));
     CHECK(pair.density_W_per_rad2 == Approx(expected.pair_W / step_rad_per_m).epsilon(1e-3));
     CHECK(image.density_W_per_rad2 == Approx(expected.image_W / step_rad_per_m).epsilon(1e-3));
-    CHECK(pair.azimuth_rad == Approx(0.0).margin(1e-9));
+    CHECK(pair.azimuth_rad == Approx(0.0).epsilon(0.0).margin(1e-9));
   }
 }
 
@@ -170,8 +170,8 @@ TEST_CASE("Behind a scan all round a corner returns what it returns ahead", "[bo
     INFO("bearing " << bearing_deg);
     REQUIRE(there.size() == 2);
     for (const std::size_t i : {0U, 1U}) {
-      CHECK(there[i].range_m == Approx(ahead[i].range_m).margin(4e-3));
-      CHECK(there[i].azimuth_rad == Approx(core::radians(bearing_deg)).margin(1e-5));
+      CHECK(there[i].range_m == Approx(ahead[i].range_m).epsilon(0.0).margin(4e-3));
+      CHECK(there[i].azimuth_rad == Approx(core::radians(bearing_deg)).epsilon(0.0).margin(1e-5));
       CHECK(there[i].density_W_per_rad2 == Approx(ahead[i].density_W_per_rad2).epsilon(2e-3));
     }
   }
@@ -190,7 +190,7 @@ TEST_CASE("A wall on smooth ground: the corner's cell gains the power of the clo
     double total_W = 0.0;
     for (const double value : added) total_W += value;
     CHECK(dB(total_W / (expected.pair_W + expected.image_W)) ==
-          Approx(0.0).margin(sampling.jittered_passes > 0 ? 0.1 : 0.5));
+          Approx(0.0).epsilon(0.0).margin(sampling.jittered_passes > 0 ? 0.1 : 0.5));
     CHECK(added[kCornerCell] > 0.999 * total_W);
   }
 }
@@ -209,7 +209,7 @@ TEST_CASE("Mirrors nearer than the first range cell count", "[bounce]") {
       for (const double value : added_W(world, sampling)) total_W += value;
       CAPTURE(gate_m, sampling.jittered_passes);
       CHECK(dB(total_W / (expected.pair_W + expected.image_W)) ==
-            Approx(0.0).margin(sampling.jittered_passes > 0 ? 0.1 : 0.3));
+            Approx(0.0).epsilon(0.0).margin(sampling.jittered_passes > 0 ? 0.1 : 0.3));
     }
 }
 
@@ -283,7 +283,7 @@ TEST_CASE("An occluded corner gives nothing", "[bounce]") {
   // alone, but the wall no longer sees the sensor (above 12 m there).
   const renderer::World hanging = corner_world({wall(800.0, 12.01, 40.0)});
   const double image_W = added_W(hanging, sampling)[cell];
-  CHECK(dB(image_W / dihedral_W(hanging.sensor).image_W) == Approx(0.0).margin(0.5));
+  CHECK(dB(image_W / dihedral_W(hanging.sensor).image_W) == Approx(0.0).epsilon(0.0).margin(0.5));
 }
 
 TEST_CASE("A rain cell takes from a bounce what it takes from a direct echo", "[bounce]") {
@@ -298,7 +298,7 @@ TEST_CASE("A rain cell takes from a bounce what it takes from a direct echo", "[
   const double two_way_dB =
       2.0 * world.rain_cells->one_way_dB({0.0, 0.0, kHeight_m}, {0.0, range_m, kHeight_m});
   CHECK(two_way_dB > 5.0);
-  CHECK(10.0 * std::log10(dry_W / wet_W) == Approx(two_way_dB).margin(0.02));
+  CHECK(10.0 * std::log10(dry_W / wet_W) == Approx(two_way_dB).epsilon(0.0).margin(0.02));
 }
 
 TEST_CASE("Nothing that reflects: the effect changes no byte", "[bounce]") {

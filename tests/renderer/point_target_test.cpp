@@ -108,14 +108,14 @@ TEST_CASE("A trihedral at a known position has the right row, column and watts f
         sensors::two_way_gain(sensor.antenna.elevation,
                               expected.elevation_rad - sensor.antenna.boresight_elevation_rad) /
         std::pow(expected.range_m, 4);
-    CHECK(10.0 * std::log10(peak_W / expected_W) == Approx(0.0).margin(0.05));
+    CHECK(10.0 * std::log10(peak_W / expected_W) == Approx(0.0).epsilon(0.0).margin(0.05));
     // Summed over columns: phi_eff in columns.
     const double summed_W = expected_W /
                             sensors::two_way_gain(sensor.antenna.azimuth,
                                                   offset_rad * std::cos(expected.elevation_rad)) *
                             sensors::two_way_width(sensor.antenna.azimuth) / width_rad /
                             std::cos(expected.elevation_rad);
-    CHECK(10.0 * std::log10(total_W / summed_W) == Approx(0.0).margin(0.05));
+    CHECK(10.0 * std::log10(total_W / summed_W) == Approx(0.0).epsilon(0.0).margin(0.05));
   }
 }
 
@@ -135,7 +135,8 @@ TEST_CASE("R01 a point target falls with R^-4: -12.0412 dB per doubling", "[targ
     for (const double value : frame.bscope_W) sum += value;
     return sum;
   };
-  CHECK(10.0 * std::log10(power_W(2000.0) / power_W(1000.0)) == Approx(-12.0412).margin(1e-3));
+  CHECK(10.0 * std::log10(power_W(2000.0) / power_W(1000.0)) ==
+        Approx(-12.0412).epsilon(0.0).margin(1e-3));
 }
 
 TEST_CASE("A moving target is where its waypoints say", "[target]") {

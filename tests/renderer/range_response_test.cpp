@@ -78,7 +78,7 @@ TEST_CASE("power stays in the picture but for what leaves the gate at its ends",
     const sensors::Sensor longer = with_window(window, 1, 8000);
     std::vector<double> image = impulse(longer, 4000, 0);
     RangeResponse(longer).apply(image);
-    CHECK(total(image) == Approx(1.0).margin(window == Window::hann ? 1e-9 : 1e-4));
+    CHECK(total(image) == Approx(1.0).epsilon(0.0).margin(window == Window::hann ? 1e-9 : 1e-4));
   }
 }
 
@@ -131,12 +131,13 @@ TEST_CASE("a point target's measured response has the window's side lobe and wid
     while (power(half + 1) > 0.5 * power(peak)) ++half;
     const double share =
         (power(half) / power(peak) - 0.5) / ((power(half) - power(half + 1)) / power(peak));
-    CHECK(2.0 * (half - peak + share) / kFine == Approx(row.width_bins).margin(0.006));
+    CHECK(2.0 * (half - peak + share) / kFine == Approx(row.width_bins).epsilon(0.0).margin(0.006));
     int lobe = peak;
     while (power(lobe + 1) < power(lobe)) ++lobe;
     double highest = 0.0;
     for (int k = lobe; k < 1200; ++k) highest = std::max(highest, power(k));
-    CHECK(10.0 * std::log10(highest / power(peak)) == Approx(row.lobe_dB).margin(0.03));
+    CHECK(10.0 * std::log10(highest / power(peak)) ==
+          Approx(row.lobe_dB).epsilon(0.0).margin(0.03));
   }
 }
 

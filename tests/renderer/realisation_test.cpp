@@ -152,7 +152,7 @@ TEST_CASE("Realisations average to the expected power with its noise, ground and
     CAPTURE(static_cast<int>(swerling));
     // Of a cell: at most 1 / sqrt(frames) for case 1, six times that among 6288 cells.
     CHECK(worst < 6.0 / std::sqrt(kFrames));
-    CHECK(sum == Approx(1.0).margin(0.004));
+    CHECK(sum == Approx(1.0).epsilon(0.0).margin(0.004));
   }
 }
 
@@ -172,7 +172,7 @@ TEST_CASE("A sensor in the ground sees noise alone: false alarms at the rate of 
   }
   CHECK(cells / 200 * 1e-3 ==
         Approx(sensors::receiver_figures(world.sensor).false_alarms_per_frame));
-  CHECK(alarms / cells == Approx(1e-3).margin(4.0 * std::sqrt(1e-3 / cells)));
+  CHECK(alarms / cells == Approx(1e-3).epsilon(0.0).margin(4.0 * std::sqrt(1e-3 / cells)));
 }
 
 TEST_CASE("Threshold detections are the cells above it, by row and column", "[detection]") {

@@ -105,7 +105,7 @@ TEST_CASE("a target shows in every column at twice the level in dB", "[side_lobe
   const double peak_W = sensor.radar_constant_W_m2() / 1e12;
   for (const std::size_t column : {0U, 8U, 39U})
     CHECK(10.0 * std::log10(frame.bscope_W[row * 40 + column] / peak_W) ==
-          Approx(-50.0).margin(0.01));
+          Approx(-50.0).epsilon(0.0).margin(0.01));
 }
 
 TEST_CASE("elevation side lobes light the ground that the beam leaves dark", "[side_lobes]") {
@@ -126,7 +126,7 @@ TEST_CASE("elevation side lobes light the ground that the beam leaves dark", "[s
                             sensors::two_way_width(sensor.antenna.azimuth) * sensor.range.cell_m *
                             (0.0325 * sine + 0.136 * std::pow(sine, 1.99)) /
                             (std::pow(range_m, 3) * std::sqrt(1.0 - sine * sine));
-  CHECK(10.0 * std::log10(nearest(sensor) / expected_W) == Approx(0.0).margin(0.3));
+  CHECK(10.0 * std::log10(nearest(sensor) / expected_W) == Approx(0.0).epsilon(0.0).margin(0.3));
 }
 
 TEST_CASE("the plan runs side lobes when they are there and matter", "[side_lobes]") {
@@ -150,7 +150,7 @@ TEST_CASE("the plan runs side lobes when they are there and matter", "[side_lobe
   CHECK(renderer::has_side_lobes(facts));  // 1.25 deg is beyond its null at 0.9 deg
   CHECK(runs());
   const sensors::Sensor cut = renderer::without_side_lobes(facts.sensor);
-  CHECK(core::degrees(cut.antenna.azimuth.cut_rad) == Approx(0.903).margin(1e-3));
+  CHECK(core::degrees(cut.antenna.azimuth.cut_rad) == Approx(0.903).epsilon(0.0).margin(1e-3));
   facts.sensor = cut;
   CHECK_FALSE(renderer::has_side_lobes(facts));
 }

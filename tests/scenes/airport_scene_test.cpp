@@ -138,7 +138,7 @@ TEST_CASE("An airport of apt.dat is one line of a scene: runway, apron with its 
   CHECK(tests::height_m(*scene, middle) -
             terrain::ellipsoidal_height_m({core::radians(52.01), core::radians(10.0), 0.0},
                                           core::VerticalDatum::egm96) ==
-        Approx(elevation_m).margin(0.05));
+        Approx(elevation_m).epsilon(0.0).margin(0.05));
   // 333.8 m of lit edge: a light every 40 m.
   CHECK(count_named(*scene, "taxiway light") == 9);
   CHECK(count_named(*scene, "PAPI") == 4);
@@ -197,10 +197,10 @@ TEST_CASE("Curves go the short way over the date line", "[airport]") {
   REQUIRE(here.rings().at(0).size() == there.rings().at(0).size());
   for (std::size_t i = 0; i < here.rings()[0].size(); ++i) {
     const core::Geodetic &a = here.rings()[0][i], &b = there.rings()[0][i];
-    CHECK(b.latitude_rad == Approx(a.latitude_rad).margin(1e-12));
+    CHECK(b.latitude_rad == Approx(a.latitude_rad).epsilon(0.0).margin(1e-12));
     CHECK(std::abs(b.longitude_rad) <= core::kPi);
     CHECK(std::remainder(b.longitude_rad - a.longitude_rad - core::kPi, 2.0 * core::kPi) ==
-          Approx(0.0).margin(1e-12));
+          Approx(0.0).epsilon(0.0).margin(1e-12));
   }
 }
 
@@ -241,7 +241,7 @@ TEST_CASE("An end without an elevation lies on the line that the elevation data 
       if (std::string(datum) == "egm96")
         geodetic.height_m -= terrain::ellipsoidal_height_m(
             {geodetic.latitude_rad, geodetic.longitude_rad, 0.0}, core::VerticalDatum::egm96);
-      CHECK(geodetic.height_m == Approx(end == 0 ? 80.0 : 100.0).margin(0.3));
+      CHECK(geodetic.height_m == Approx(end == 0 ? 80.0 : 100.0).epsilon(0.0).margin(0.3));
     }
   }
 }

@@ -84,8 +84,8 @@ TEST_CASE("The apt.dat sample has the airports and runways that its description 
   const auto landing = choose_landing(*airport, "30R", problems);
   REQUIRE(landing.has_value());
   // OurAirports: 30R 9000 ft long.
-  CHECK(landing->length_m == Approx(9000 * 0.3048).margin(15));
-  CHECK(degrees(landing->bearing_rad) == Approx(304.0).margin(2.0));
+  CHECK(landing->length_m == Approx(9000 * 0.3048).epsilon(0.0).margin(15));
+  CHECK(degrees(landing->bearing_rad) == Approx(304.0).epsilon(0.0).margin(2.0));
 
   SECTION("displaced thresholds of KBIX 03/21") {
     const auto keesler = read_apt_dat(*file, "KBIX", problems);
@@ -165,13 +165,13 @@ TEST_CASE("Both layouts of runway tables tell the same runway of Friedrichshafen
   }
   for (const Landing& landing : landings) {
     // The description of the data: 2358.3 m from the coordinates, 240.01 deg, 45.1 m wide.
-    CHECK(landing.length_m == Approx(2358.3).margin(0.2));
-    CHECK(degrees(landing.bearing_rad) == Approx(240.01).margin(0.02));
-    CHECK(landing.runway.width_m == Approx(45.1).margin(0.05));
+    CHECK(landing.length_m == Approx(2358.3).epsilon(0.0).margin(0.2));
+    CHECK(degrees(landing.bearing_rad) == Approx(240.01).epsilon(0.0).margin(0.02));
+    CHECK(landing.runway.width_m == Approx(45.1).epsilon(0.0).margin(0.05));
     CHECK(landing.runway.surface.material == "asphalt_worn");
-    CHECK(landing.threshold_end().displaced_m == Approx(205.7).margin(0.1));
-    CHECK(*landing.threshold_end().elevation_m == Approx(416.7).margin(0.05));
-    CHECK(*landing.far_end().elevation_m == Approx(406.6).margin(0.05));
+    CHECK(landing.threshold_end().displaced_m == Approx(205.7).epsilon(0.0).margin(0.1));
+    CHECK(*landing.threshold_end().elevation_m == Approx(416.7).epsilon(0.0).margin(0.05));
+    CHECK(*landing.far_end().elevation_m == Approx(406.6).epsilon(0.0).margin(0.05));
     CHECK(landing.runway.edge_lights == true);
     CHECK_FALSE(landing.runway.markings.has_value());
   }

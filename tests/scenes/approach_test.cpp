@@ -36,10 +36,10 @@ TEST_CASE("An instrument approach crosses the threshold as its keys say", "[appr
   REQUIRE(approach);
   CHECK(approach->runway == "36");
   CHECK(approach->passes_threshold);
-  CHECK(approach->height_m == Approx(16.0).margin(0.1));
-  CHECK(approach->right_m == Approx(0.0).margin(0.1));
-  CHECK(core::degrees(approach->glide_path_rad) == Approx(3.5).margin(0.01));
-  CHECK(approach->fitted_from_m == Approx(2000.0).margin(5.0));
+  CHECK(approach->height_m == Approx(16.0).epsilon(0.0).margin(0.1));
+  CHECK(approach->right_m == Approx(0.0).epsilon(0.0).margin(0.1));
+  CHECK(core::degrees(approach->glide_path_rad) == Approx(3.5).epsilon(0.0).margin(0.01));
+  CHECK(approach->fitted_from_m == Approx(2000.0).epsilon(0.0).margin(5.0));
 }
 
 TEST_CASE("A recorded approach that ends early is told where it ends", "[approach]") {
@@ -51,11 +51,12 @@ TEST_CASE("A recorded approach that ends early is told where it ends", "[approac
   REQUIRE(approach);
   CHECK(approach->runway == "36");
   CHECK_FALSE(approach->passes_threshold);
-  CHECK(approach->before_threshold_m == Approx(600.0).margin(1.0));
+  CHECK(approach->before_threshold_m == Approx(600.0).epsilon(0.0).margin(1.0));
   // The threshold lies at 50 m.
-  CHECK(approach->height_m == Approx(20.0 + 600.0 * std::tan(core::radians(4.0))).margin(0.1));
-  CHECK(approach->right_m == Approx(40.0).margin(0.2));
-  CHECK(core::degrees(approach->glide_path_rad) == Approx(4.0).margin(0.03));
+  CHECK(approach->height_m ==
+        Approx(20.0 + 600.0 * std::tan(core::radians(4.0))).epsilon(0.0).margin(0.1));
+  CHECK(approach->right_m == Approx(40.0).epsilon(0.0).margin(0.2));
+  CHECK(core::degrees(approach->glide_path_rad) == Approx(4.0).epsilon(0.0).margin(0.03));
 }
 
 TEST_CASE("Standing and climbing out are no approach", "[approach]") {

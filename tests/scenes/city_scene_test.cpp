@@ -53,13 +53,15 @@ TEST_CASE("a building of a city model stands on the scene's ground, whatever hei
   REQUIRE(town.scene().world.solids().others.size() == 1);
   const terrain::Box_m& box = town.scene().world.solids().others[0];
   const glm::dvec2 middle = (glm::dvec2(box.low) + glm::dvec2(box.high)) / 2.0;
-  CHECK(box.high.z - tests::ground_m(town.scene(), middle) == Approx(8.0).margin(0.01));
-  CHECK(box.low.z - tests::ground_m(town.scene(), middle) == Approx(-2.0).margin(0.01));
+  CHECK(box.high.z - tests::ground_m(town.scene(), middle) ==
+        Approx(8.0).epsilon(0.0).margin(0.01));
+  CHECK(box.low.z - tests::ground_m(town.scene(), middle) ==
+        Approx(-2.0).epsilon(0.0).margin(0.01));
   // On the ridge, and a metre aside of it, where the roof is 0.75 m lower.
   CHECK(tests::seen_from_above(town.scene(), middle + glm::dvec2(0.0, 0.01)).up_m ==
-        Approx(box.high.z).margin(0.02));
+        Approx(box.high.z).epsilon(0.0).margin(0.02));
   const tests::Seen aside = tests::seen_from_above(town.scene(), middle + glm::dvec2(0.0, 1.0));
-  CHECK(aside.up_m == Approx(box.high.z - 0.75).margin(0.02));
+  CHECK(aside.up_m == Approx(box.high.z - 0.75).epsilon(0.0).margin(0.02));
   CHECK(aside.material == "roof");
 }
 
@@ -70,8 +72,9 @@ TEST_CASE(
       tests::house(),
       "heights = \"as_filed\"\nsurfaces = { RoofSurface = \"metal\", Chimney = \"brick\" }");
   const terrain::Box_m& box = town.scene().world.solids().others.at(0);
-  CHECK(town.scene().frame.to_geodetic(box.high).height_m == Approx(48.0).margin(0.01));
-  CHECK(town.scene().frame.to_geodetic(box.low).height_m == Approx(40.0).margin(0.01));
+  CHECK(town.scene().frame.to_geodetic(box.high).height_m ==
+        Approx(48.0).epsilon(0.0).margin(0.01));
+  CHECK(town.scene().frame.to_geodetic(box.low).height_m == Approx(40.0).epsilon(0.0).margin(0.01));
   bool told = false;
   for (const core::Problem& problem : town.outcome.problems)
     told = told || (problem.code == "W-UNUSED" && problem.value == "\"Chimney\"");
@@ -144,9 +147,10 @@ TEST_CASE("A model stands at a height of the scene's datum, or above the ground,
   const glm::dvec2 there(on_ground->world.solids().others.at(0).low);
   const double ground_m = tests::height_m(*on_ground, there);
   const auto high = tests::good_scene(folder, model("above_ground_m = 30.0"));
-  CHECK(foot_m(*high) - foot_m(*on_ground) == Approx(30.0).margin(1e-3));
+  CHECK(foot_m(*high) - foot_m(*on_ground) == Approx(30.0).epsilon(0.0).margin(1e-3));
   const auto absolute = tests::good_scene(folder, model("height_m = 100.0"));
-  CHECK(foot_m(*absolute) - foot_m(*on_ground) == Approx(100.0 - ground_m).margin(0.01));
+  CHECK(foot_m(*absolute) - foot_m(*on_ground) ==
+        Approx(100.0 - ground_m).epsilon(0.0).margin(0.01));
   const tests::Outcome both =
       tests::build_text(folder, model("height_m = 100.0\nabove_ground_m = 3.0"));
   CHECK(both.scene == nullptr);

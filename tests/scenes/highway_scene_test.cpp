@@ -109,9 +109,9 @@ TEST_CASE("A target of a scenario starts at its place and refuses what is not th
     if (codes.empty()) {
       const renderer::PointTarget& seen = outcome.scene->world.targets.back();
       // D begins 105 m ahead, 3.5 m to the right of `at`, whose runway leads north from x = y = 0.
-      CHECK(seen.position_at(0.0).x == Approx(3.5 - 2.0).margin(1e-6));
-      CHECK(seen.position_at(0.0).y == Approx(205.0).margin(1e-6));
-      CHECK(seen.velocity_at(0.2).y == Approx(25.0).margin(1e-6));
+      CHECK(seen.position_at(0.0).x == Approx(3.5 - 2.0).epsilon(0.0).margin(1e-6));
+      CHECK(seen.position_at(0.0).y == Approx(205.0).epsilon(0.0).margin(1e-6));
+      CHECK(seen.velocity_at(0.2).y == Approx(25.0).epsilon(0.0).margin(1e-6));
     }
     return codes;
   };

@@ -170,15 +170,15 @@ TEST_CASE("A landing uphill on Lukla's slope touches down and stops on the runwa
       rolling = true;
       pitch_at_touchdown_deg = pitch_deg(pose);
       // 7 m over the threshold, less a flare of 2 h / (s1 + s2): -9.7 m - 45.3 m.
-      CHECK(on_runway_m == Approx(55.0).margin(1.0));
+      CHECK(on_runway_m == Approx(55.0).epsilon(0.0).margin(1.0));
     }
   }
   CHECK(rolling);
   const double runway_deg = core::degrees(std::atan(kSlope));
-  CHECK(pitch_at_touchdown_deg == Approx(runway_deg + 5.0).margin(0.01));
-  CHECK(pitch_deg(flight.poses().back()) == Approx(runway_deg).margin(1e-6));
+  CHECK(pitch_at_touchdown_deg == Approx(runway_deg + 5.0).epsilon(0.0).margin(0.01));
+  CHECK(pitch_deg(flight.poses().back()) == Approx(runway_deg).epsilon(0.0).margin(1e-6));
   // 40 m/s, or what is left of it after touchdown, shed at 3 m/s^2: 267 m.
-  CHECK(on_runway_m == Approx(55.0 + 267.0).margin(3.0));
+  CHECK(on_runway_m == Approx(55.0 + 267.0).epsilon(0.0).margin(3.0));
   approach.runway_slope = 0.21;
   CHECK(refusal(approach).find("runway_slope") != std::string::npos);
 }

@@ -167,9 +167,9 @@ TEST_CASE("Elevations that are not published come from the terrain, and that is 
   const tests::Outcome outcome = built(folder, *scene);
   REQUIRE(outcome.scene != nullptr);
   CHECK(outcome.scene->description.runways[0].ends[0].pavement_end.height_m ==
-        Approx(130.0).margin(0.5));
+        Approx(130.0).epsilon(0.0).margin(0.5));
   CHECK(outcome.scene->description.runways[0].ends[1].pavement_end.height_m ==
-        Approx(131.8).margin(1.0));
+        Approx(131.8).epsilon(0.0).margin(1.0));
 }
 
 TEST_CASE("Terrain above the ellipsoid takes the runway's published elevations with it",
@@ -185,7 +185,7 @@ TEST_CASE("Terrain above the ellipsoid takes the runway's published elevations w
   const tests::Outcome outcome = built(folder, *scene);
   REQUIRE(outcome.scene != nullptr);
   CHECK(outcome.scene->description.runways[0].ends[0].pavement_end.height_m ==
-        Approx(80.0 + geoid_m).margin(0.01));
+        Approx(80.0 + geoid_m).epsilon(0.0).margin(0.01));
 }
 
 TEST_CASE("Everything wrong with the data of a new scene is told at once", "[new-scene]") {
@@ -342,8 +342,8 @@ TEST_CASE("Friedrichshafen from a runway table and an SRTM tile: datum, heights,
     REQUIRE(outcome.scene != nullptr);
     // The displaced threshold of the table.
     CHECK(core::degrees(outcome.scene->description.origin.latitude_rad) ==
-          Approx(47.6756766).margin(2e-6));
+          Approx(47.6756766).epsilon(0.0).margin(2e-6));
     CHECK(core::degrees(outcome.scene->description.origin.longitude_rad) ==
-          Approx(9.5227171).margin(2e-6));
+          Approx(9.5227171).epsilon(0.0).margin(2e-6));
   }
 }

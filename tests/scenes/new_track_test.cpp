@@ -188,7 +188,8 @@ TEST_CASE("Names are believed, and pressure heights are brought to the threshold
   };
   const Guessed baro = with("alt_baro_ft", 300.0);  // 11 hPa below standard
   CHECK(baro.guess.datum == VerticalDatum::egm96);
-  CHECK(baro.guess.columns.height_offset_m == Approx(-300.0 * core::kFoot_m).margin(1.0));
+  CHECK(baro.guess.columns.height_offset_m ==
+        Approx(-300.0 * core::kFoot_m).epsilon(0.0).margin(1.0));
   const Guessed geometric = with("alt_geom_ft", 0.0);  // by mistake above mean sea level
   CHECK(geometric.guess.datum == VerticalDatum::ellipsoid);
   CHECK(geometric.guess.columns.height_offset_m == 0.0);
@@ -207,7 +208,8 @@ TEST_CASE("Times are told apart by form and size", "[new-track]") {
   const auto epoch_ms =
       unit_of("timestamp", [](int t) { return std::to_string(1551740145000 + 1000LL * t); });
   CHECK(epoch_ms.time.unit == "ms");
-  CHECK(*epoch_ms.from_time_s == Approx(1551740145.0 + 43.0).margin(1.0));  // 5 km of 8 km left
+  CHECK(*epoch_ms.from_time_s ==
+        Approx(1551740145.0 + 43.0).epsilon(0.0).margin(1.0));  // 5 km of 8 km left
   CHECK(unit_of("time", [](int t) { return std::to_string(1551740145 + t); }).time.unit == "s");
   CHECK(unit_of("time_ms", [](int t) { return std::to_string(1000 * t); }).time.unit == "ms");
   const auto iso = unit_of("UTC", [](int t) {
@@ -216,7 +218,7 @@ TEST_CASE("Times are told apart by form and size", "[new-track]") {
     return std::string(text);
   });
   CHECK(iso.time.unit == "iso8601");
-  CHECK(*iso.from_time_s == Approx(1234567800.0 + 43.0).margin(1.0));
+  CHECK(*iso.from_time_s == Approx(1234567800.0 + 43.0).epsilon(0.0).margin(1.0));
 }
 
 TEST_CASE("The approach begins at the start distance and ends above the runway", "[new-track]") {

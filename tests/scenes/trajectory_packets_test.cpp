@@ -164,9 +164,9 @@ TEST_CASE("A recorded flight is that of the simulator's own table", "[trajectory
     ++found;
     CHECK(row.position.height_m == Approx(own->second.altitude_m).margin(1e-3).epsilon(0.0));
     CHECK(std::remainder(core::degrees(row.heading_rad) - own->second.heading_deg, 360.0) ==
-          Approx(0.0).margin(1e-4));
-    CHECK(core::degrees(row.roll_rad) == Approx(own->second.roll_deg).margin(1e-4));
-    CHECK(core::degrees(row.pitch_rad) == Approx(own->second.pitch_deg).margin(1e-4));
+          Approx(0.0).epsilon(0.0).margin(1e-4));
+    CHECK(core::degrees(row.roll_rad) == Approx(own->second.roll_deg).epsilon(0.0).margin(1e-4));
+    CHECK(core::degrees(row.pitch_rad) == Approx(own->second.pitch_deg).epsilon(0.0).margin(1e-4));
   }
   CHECK(found > 1700);
 }

@@ -43,10 +43,10 @@ TEST_CASE("windows have their published side lobes and widths", "[point_response
   for (const Row& row : {Row{Window::rectangular, -13.26, 0.886}, Row{Window::hann, -31.47, 1.44},
                          Row{Window::hamming, -42.67, 1.30}}) {
     const PointResponse response(with_window(row.window), 0);
-    CHECK(response.scale_m() == Approx(6.67).margin(0.001));
-    CHECK(highest_lobe_dB(response) == Approx(row.lobe_dB).margin(0.02));
+    CHECK(response.scale_m() == Approx(6.67).epsilon(0.0).margin(0.001));
+    CHECK(highest_lobe_dB(response) == Approx(row.lobe_dB).epsilon(0.0).margin(0.02));
     CHECK(response.half_power_width_m() / response.scale_m() ==
-          Approx(row.width_bins).margin(0.006));
+          Approx(row.width_bins).epsilon(0.0).margin(0.006));
   }
 }
 
@@ -56,13 +56,14 @@ TEST_CASE("Taylor windows keep the side lobes they are asked for", "[point_respo
     sensor.waveform.taylor_side_lobe = std::pow(10.0, level_dB / 10.0);
     sensor.waveform.taylor_equal_lobes = level_dB < -40.0 ? 8 : 4;
     // Taylor's lobes are nearly equal: the design holds them within a few tenths of a decibel.
-    CHECK(highest_lobe_dB(PointResponse(sensor, 0)) == Approx(level_dB).margin(0.4));
+    CHECK(highest_lobe_dB(PointResponse(sensor, 0)) == Approx(level_dB).epsilon(0.0).margin(0.4));
   }
   // -35 dB with four equal lobes: -35.1672 dB and 1.1822 bins (A. Doerry, Catalog of window taper
   // functions for sidelobe control, Sandia, 2017), as that design's F_m give.
   const PointResponse response(with_window(Window::taylor), 0);
-  CHECK(highest_lobe_dB(response) == Approx(-35.1672).margin(0.001));
-  CHECK(response.half_power_width_m() / response.scale_m() == Approx(1.1822).margin(0.003));
+  CHECK(highest_lobe_dB(response) == Approx(-35.1672).epsilon(0.0).margin(0.001));
+  CHECK(response.half_power_width_m() / response.scale_m() ==
+        Approx(1.1822).epsilon(0.0).margin(0.003));
 }
 
 TEST_CASE("a window's response is the transform of its weights", "[point_response]") {
@@ -114,9 +115,9 @@ TEST_CASE("one sweep over the whole scan resolves only what the beam's dwell let
   for (const double range_m : {50.0, 100.0, 200.0})
     CHECK(response.density_per_m(range_m) / response.density_per_m(0.0) ==
           Approx(std::pow(field(range_m) / field(0.0), 2)).epsilon(1e-6));
-  CHECK(response.half_power_width_m() == Approx(213.3).margin(0.1));
+  CHECK(response.half_power_width_m() == Approx(213.3).epsilon(0.0).margin(0.1));
   sensor.waveform.bandwidth_Hz = 719e6;
-  CHECK(PointResponse(sensor, 0).half_power_width_m() == Approx(6.67).margin(0.01));
+  CHECK(PointResponse(sensor, 0).half_power_width_m() == Approx(6.67).epsilon(0.0).margin(0.01));
 }
 
 TEST_CASE("without window or one-sweep scan there is no response", "[point_response]") {

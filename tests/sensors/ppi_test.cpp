@@ -77,13 +77,13 @@ TEST_CASE("a target appears at its bearing, north up by true heading, track up w
 
   PpiView view = ppi_view(sensor, Up::track, 2000, radians(264.74));
   Polar seen = brightest(view, ppi_grey(sensor, grey, radians(264.74), view));
-  CHECK(seen.range_m == Approx(2000.0).margin(7.0));
-  CHECK(seen.bearing_deg == Approx(10.1).margin(0.25));
+  CHECK(seen.range_m == Approx(2000.0).epsilon(0.0).margin(7.0));
+  CHECK(seen.bearing_deg == Approx(10.1).epsilon(0.0).margin(0.25));
 
   view = ppi_view(sensor, Up::north, 2400, radians(264.74));
   seen = brightest(view, ppi_grey(sensor, grey, radians(264.74), view));
-  CHECK(seen.range_m == Approx(2000.0).margin(7.0));
-  CHECK(seen.bearing_deg == Approx(264.74 + 10.1 - 360.0).margin(0.25));
+  CHECK(seen.range_m == Approx(2000.0).epsilon(0.0).margin(7.0));
+  CHECK(seen.bearing_deg == Approx(264.74 + 10.1 - 360.0).epsilon(0.0).margin(0.25));
 }
 
 namespace {

@@ -104,11 +104,11 @@ TEST_CASE("a wall's height follows from its shadow to a tenth of a range cell's 
     INFO("height " << height_m);
     REQUIRE(found.size() == 1);
     const double cell_worth_m = kHeight_m * top_m * 6.67 / (end_m * end_m);
-    CHECK(found[0].height_m == Approx(height_m).margin(0.1 * cell_worth_m));
+    CHECK(found[0].height_m == Approx(height_m).epsilon(0.0).margin(0.1 * cell_worth_m));
     CHECK(found[0].height_error_m == Approx(cell_worth_m).epsilon(0.01));
-    CHECK(found[0].shadow_length_m == Approx(end_m - top_m).margin(0.7));
+    CHECK(found[0].shadow_length_m == Approx(end_m - top_m).epsilon(0.0).margin(0.7));
     CHECK(found[0].range_m == Approx(top_m).epsilon(0.0).margin(1e-9));
-    CHECK(core::degrees(found[0].azimuth_rad) == Approx(-1.0).margin(0.05));
+    CHECK(core::degrees(found[0].azimuth_rad) == Approx(-1.0).epsilon(0.0).margin(0.05));
     CHECK(found[0].first_column == 62);  // -5 deg
     CHECK(found[0].last_column == 93);   // 3 deg
     CHECK_FALSE(found[0].truncated);
@@ -144,7 +144,7 @@ TEST_CASE("a shadow that leaves the range gate gives a lower bound", "[shadow]")
   REQUIRE(found.size() == 1);
   CHECK(found[0].truncated);
   CHECK(found[0].height_m < 30.0);
-  CHECK(found[0].height_m == Approx(kHeight_m * (1.0 - top_m / 3695.08)).margin(0.5));
+  CHECK(found[0].height_m == Approx(kHeight_m * (1.0 - top_m / 3695.08)).epsilon(0.0).margin(0.5));
 }
 
 TEST_CASE("a shadow that falls on another wall is a lower bound for the first", "[shadow]") {

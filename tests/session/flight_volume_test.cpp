@@ -64,8 +64,8 @@ TEST_CASE("A stated flight volume is what the plan counts on, with a trajectory 
   const std::string stated = "[flight_volume]\nlowest_m = 100.0\nhighest_m = 1000.0\n";
   const auto session = session_of(folder, live() + stated);
   // The scene's datum has its zero 50 m below the origin; the Earth falls away by 1 m to the rim.
-  CHECK(session->scene()->volume.lowest_m == Approx(50.0).margin(1.1));
-  CHECK(session->scene()->volume.highest_m == Approx(950.0).margin(1e-6));
+  CHECK(session->scene()->volume.lowest_m == Approx(50.0).epsilon(0.0).margin(1.1));
+  CHECK(session->scene()->volume.highest_m == Approx(950.0).epsilon(0.0).margin(1e-6));
   CHECK(is_outside(session->render(pose(51.99, 1200.0), 0)));
   CHECK(is_outside(session->render(pose(51.99, 80.0), 0)));
   CHECK_FALSE(is_outside(session->render(pose(51.99, 900.0), 0)));

@@ -76,7 +76,9 @@ TEST_CASE("A lone echo's cells are samples of the sweep's point response, with e
         INFO(static_cast<int>(window) << " " << beside_cells << " cell " << cell);
         // The synthesis is good to 1e-4 of the amplitude; bins of 1.000009 cells.
         CHECK(cells_W[static_cast<std::size_t>(cell)] / 1e-9 ==
-              Approx(response.density_per_m(offset_m) * sensor.range.cell_m).margin(3e-4 * peak));
+              Approx(response.density_per_m(offset_m) * sensor.range.cell_m)
+                  .epsilon(0.0)
+                  .margin(3e-4 * peak));
       }
       // Parseval: all cells together hold the echo; what a rectangular window leaves beyond the
       // gate is 1e-3.
@@ -122,9 +124,11 @@ TEST_CASE("70 m/s towards an echo bring it 41.5 m nearer unless they are taken o
   // fc v / S, S = B / dwell.
   const double shift_m = sensor.waveform.frequency_Hz * speed_mps * sensor.receiver.dwell_s /
                          sensor.waveform.bandwidth_Hz;
-  CHECK(shift_m == Approx(41.5).margin(0.05));
-  CHECK(centroid_m(sensor, cells_of(sensor, echo)) == Approx(range_m - shift_m).margin(0.02));
-  CHECK(centroid_m(sensor, cells_of(sensor, echo, speed_mps)) == Approx(range_m).margin(0.02));
+  CHECK(shift_m == Approx(41.5).epsilon(0.0).margin(0.05));
+  CHECK(centroid_m(sensor, cells_of(sensor, echo)) ==
+        Approx(range_m - shift_m).epsilon(0.0).margin(0.02));
+  CHECK(centroid_m(sensor, cells_of(sensor, echo, speed_mps)) ==
+        Approx(range_m).epsilon(0.0).margin(0.02));
 }
 
 TEST_CASE("Sensors without a sweep per column, or without a window, are refused", "[scan]") {

@@ -72,7 +72,7 @@ TEST_CASE("A crossing brings the power of the band over the difference of slopes
     sum += power_W;
     weighted += n / kRate_Hz * power_W;
   }
-  CHECK(weighted / sum == Approx(at_s).margin(0.5 / kRate_Hz));
+  CHECK(weighted / sum == Approx(at_s).epsilon(0.0).margin(0.5 / kRate_Hz));
   // Nothing of it elsewhere.
   CHECK(std::norm(cube.at(0, 3, 20)) == 0.0F);
 }
@@ -93,7 +93,7 @@ TEST_CASE("An interferer of the same slope is a tone at its delay: a ghost", "[i
   // One way alone: S R / c, half of what an echo from there would have.
   const double beat_Hz = 12.5e12 * 60.0 / core::kSpeedOfLight_mps;
   CHECK(static_cast<double>(strongest) * kRate_Hz / 200.0 ==
-        Approx(beat_Hz).margin(0.5 * kRate_Hz / 200.0));
+        Approx(beat_Hz).epsilon(0.0).margin(0.5 * kRate_Hz / 200.0));
 }
 
 TEST_CASE("The array hears where an interferer is, by its receivers alone", "[interference]") {
@@ -106,14 +106,14 @@ TEST_CASE("The array hears where an interferer is, by its receivers alone", "[in
   std::vector<std::complex<double>> snapshot;
   for (int channel = 0; channel < 8; ++channel) snapshot.emplace_back(cube.at(channel, 1, 207));
   const AnglePeak peak = azimuth_peak(snapshot, virtual_elements_m(array), wavelength_m);
-  CHECK(peak.azimuth_rad == Approx(0.3).margin(2e-3));
+  CHECK(peak.azimuth_rad == Approx(0.3).epsilon(0.0).margin(2e-3));
   CHECK(peak.power == Approx(std::norm(snapshot[0])).epsilon(1e-3));
 }
 
 TEST_CASE("Power comes by Friis, and what makes no sense is refused", "[interference]") {
   // 35 dBm, 27 dB, 3.945 mm, 100 m: spreading loss 110.06 dB.
   const double power_W = interference_power_W(3.1623, 501.19, 3.944638e-3, 100.0);
-  CHECK(10.0 * std::log10(power_W) == Approx(5.0 + 27.0 - 110.06).margin(0.01));
+  CHECK(10.0 * std::log10(power_W) == Approx(5.0 + 27.0 - 110.06).epsilon(0.0).margin(0.01));
   const Waveform waveform = chirps(4);
   FloatCube cube({400, 4, 1});
   const auto refused = [&](auto change) {
@@ -148,7 +148,7 @@ TEST_CASE("Mended samples give the echo and the floor back", "[interference]") {
   // 14.4 samples within the corner, and the low pass' slopes 26 dB down where 40 dB show above the
   // median: 2 x 0.45 fs x 10^(27/160) / |S - Q|, two more on either side.
   const double expected = kRate_Hz * 0.9 * kRate_Hz * std::pow(10.0, 27.0 / 160.0) / 25e12 + 4.0;
-  CHECK(static_cast<double>(mended) / 16.0 == Approx(expected).margin(2.0));
+  CHECK(static_cast<double>(mended) / 16.0 == Approx(expected).epsilon(0.0).margin(2.0));
   mitigate(Mitigation::interpolate, kCrossedOverMedian, {}, filled);
   CHECK(mitigate(Mitigation::zero, kCrossedOverMedian, {}, untouched) == 0);
   CHECK(untouched.values == clean.values);

@@ -77,15 +77,16 @@ TEST_CASE("Unmeasured, a target is believed in by half after the time that was s
   constexpr double kStep = 1e-3, kReturns = 1.0, kGone = 0.4456;
   Existence one{1.0, 0.0};
   one.missed(1.0 - 1e-9);
-  CHECK(one.probability() == Approx(1.0).margin(1e-6));  // nothing can be gone that had no time
+  CHECK(one.probability() ==
+        Approx(1.0).epsilon(0.0).margin(1e-6));  // nothing can be gone that had no time
   one = {1e-6, 1.0 - 1e-6};
   for (int i = 1; i <= 2000; ++i) {
     one.pass(kStep, 1.0);
     one.missed(1.0 - 1e-9);
     const double hidden = std::exp(-(kReturns + kGone) * i * kStep);
     const double gone = kGone / (kReturns + kGone) * (1.0 - hidden);
-    REQUIRE(one.probability() == Approx(hidden / (hidden + gone)).margin(2e-3));
-    if (i == 1000) CHECK(one.probability() == Approx(0.5).margin(2e-3));
+    REQUIRE(one.probability() == Approx(hidden / (hidden + gone)).epsilon(0.0).margin(2e-3));
+    if (i == 1000) CHECK(one.probability() == Approx(0.5).epsilon(0.0).margin(2e-3));
   }
   one.measured(50.0);
   CHECK(one.probability() > 1.0 - 1e-5);
@@ -111,7 +112,7 @@ TEST_CASE("Existence of a track falls while nothing is measured of it, with eith
       CHECK(tracker.tracks()[0].existence.probability() <= last);
       last = tracker.tracks()[0].existence.probability();
     }
-    CHECK(last == Approx(0.5).margin(0.02));
+    CHECK(last == Approx(0.5).epsilon(0.0).margin(0.02));
     tracker.update(2.5, {at(50)});
     CHECK(tracker.tracks()[0].existence.probability() > 0.999);
   }
@@ -141,8 +142,8 @@ TEST_CASE("Two directions two thirds of a beam apart are told to a fraction of a
     const auto found = directions_rad(snapshot, elements_m, wavelength_m, kBeam, kNoise_W);
     INFO(trial);
     REQUIRE(found.size() == 2);
-    CHECK(found[0] == Approx(left).margin(1e-3));
-    CHECK(found[1] == Approx(right).margin(1e-3));
+    CHECK(found[0] == Approx(left).epsilon(0.0).margin(1e-3));
+    CHECK(found[1] == Approx(right).epsilon(0.0).margin(1e-3));
   }
 }
 
