@@ -16,6 +16,7 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -78,11 +79,15 @@ class Reader {
     const std::uint64_t frame = number(104);
     const std::size_t slot = 256 + frame % at<std::uint32_t>(16) * at<std::uint32_t>(20);
     const std::uint64_t before = number(slot);
-    std::vector<std::uint8_t> pixels(memory_ + slot + 192, memory_ + slot + 192 + 2 * 164 * 524);
+    std::vector<std::uint8_t> both = pixels(slot + 192, 2 * 164 * 524);
     std::atomic_thread_fence(std::memory_order_acquire);
     if (before % 2 != 0 || number(slot) != before) return std::nullopt;
-    return std::pair(before / 2, std::move(pixels));
+    return std::pair(before / 2, std::move(both));
   }
+  std::vector<std::uint8_t> pixels(std::size_t offset, std::size_t count) const {
+    return {memory_ + offset, memory_ + offset + count};
+  }
+  std::size_t bytes() const { return bytes_; }
 
   unsigned mode_ = 0;
 
@@ -93,53 +98,117 @@ class Reader {
 
 }  // namespace
 
-TEST_CASE("Shared memory holds what its layout says, for its owner alone", "[shared_frames]") {
+namespace {
+
+// Of hivision, with a C-scope of fewer rows than the B-scope, so that nothing in the header is said twice.
+sensors::Sensor low_sensor() {
+  sensors::Sensor low = sensor();
+  low.display.cscope_rows = 300;
+  return low;
+}
+
+// No value of which is 0 or another one's, and no pixel of which is its neighbour's or the other picture's.
+live::LiveFrame particular_frame(std::uint64_t number) {
+  live::LiveFrame frame = frame_of(number);
+  frame.pose.position = {0.9, 0.2, 300.0};
+  frame.pose.q_NB = core::quaternion_from({0.1, -0.05, 2.5});
+  frame.frame_ms = 41.0;
+  frame.pose_age_ms = 67.0;
+  frame.samples = 4.0;
+  frame.outside_volume = true;
+  frame.cscope_top_rad = -0.0175;
+  frame.low_dB = -40.0;
+  frame.high_dB = 3.0;
+  frame.errors = live::PictureErrors{1.5, 2.5};
+  const auto picture = [](int rows, std::size_t step, std::size_t modulus) {
+    core::Picture8 result{164, rows, {}};
+    for (std::size_t i = 0; i < 164 * static_cast<std::size_t>(rows); ++i)
+      result.pixels.push_back(static_cast<std::uint8_t>((step * i + step) % modulus));
+    return result;
+  };
+  frame.bscope = picture(524, 7, 251);
+  frame.cscope = picture(300, 13, 241);
+  return frame;
+}
+
+}  // namespace
+
+// A line for each row of the first table of docs/live.md.
+TEST_CASE("The header of shared memory is what its table says, for its owner alone",
+          "[shared_frames]") {
   const std::string name = own_name();
   {
-    SharedFrames frames(name, sensor(), 16.0);
+    SharedFrames frames(name, low_sensor(), 17.5);
     const Reader reader(name);
     CHECK(reader.mode_ == 0600);
+    const auto whole = [&](std::size_t at) { return reader.at<std::uint32_t>(at); };
+    const auto number = [&](std::size_t at) { return reader.at<double>(at); };
+    using Numbers = std::vector<double>;
+    using Wholes = std::vector<std::uint32_t>;
     CHECK(reader.at<std::array<char, 8>>(0) ==
           std::array<char, 8>{'F', 'A', 'N', 'B', 'E', 'A', 'M', '\0'});
-    CHECK(reader.at<std::uint32_t>(8) == 2);
-    CHECK(reader.at<std::uint32_t>(24) == 164);
-    CHECK(reader.at<std::uint32_t>(28) == 524);
-    CHECK(reader.at<double>(40) == 200.0);
-    CHECK(reader.at<double>(48) == 6.67);
-    CHECK(reader.at<double>(80) == -55.0);
-    CHECK(reader.at<double>(96) == 16.0);
+    constexpr std::uint32_t kSlot_bytes = (192 + 164 * (524 + 300) + 63) / 64 * 64;
+    CHECK(Wholes{whole(8), whole(12), whole(16), whole(20)} == Wholes{2, 256, 8, kSlot_bytes});
+    CHECK(Wholes{whole(24), whole(28), whole(32), whole(36)} == Wholes{164, 524, 164, 300});
+    CHECK(Numbers{number(40), number(48), number(56)} ==
+          Numbers{200.0, 6.67, low_sensor().scan.field_of_view_rad});
+    CHECK(Numbers{number(64), number(72)} ==
+          Numbers{low_sensor().display.cscope_top_rad, low_sensor().display.cscope_span_rad});
+    CHECK(Numbers{number(80), number(88), number(96)} == Numbers{-55.0, 5.0, 17.5});
     CHECK(reader.number(104) == 0);
-    for (std::uint64_t number = 1; number <= 20; ++number) frames.write(frame_of(number));
-    const auto newest = reader.newest();
-    REQUIRE(newest.has_value());
-    CHECK(newest->first == 20);
-    CHECK(newest->second == std::vector<std::uint8_t>(2 * 164 * 524, 20));
-    const std::size_t slot = 256 + 20 % 8 * reader.at<std::uint32_t>(20);
-    CHECK(reader.at<std::uint64_t>(slot + 8) == 20);
-    CHECK(reader.at<double>(slot + 16) == 1.25);
-    CHECK(reader.at<double>(slot + 24) == 0.9);
-    CHECK(reader.at<double>(slot + 40) == 300.0);
-    CHECK(reader.at<double>(slot + 88) == 4.0);
-    CHECK(reader.at<double>(slot + 128) == -1.0);  // not known yet
-    CHECK(reader.at<double>(slot + 136) == -1.0);
-    // What a control moved: of the frame, and of the newest.
-    auto moved = frame_of(21);
-    moved.cscope_top_rad = -0.0175;
-    moved.low_dB = -40.0;
-    moved.high_dB = 1.0;
-    moved.errors = live::PictureErrors{1.5, 2.5};
-    frames.write(moved);
-    const std::size_t next = 256 + 21 % 8 * reader.at<std::uint32_t>(20);
-    CHECK(reader.at<double>(next + 128) == 1.5);
-    CHECK(reader.at<double>(next + 136) == 2.5);
-    for (const std::size_t at : {next + 104, std::size_t{64}})
-      CHECK(reader.at<double>(at) == -0.0175);
-    for (const std::size_t at : {next + 112, std::size_t{80}}) {
-      CHECK(reader.at<double>(at) == -40.0);
-      CHECK(reader.at<double>(at + 8) == 1.0);
-    }
+    CHECK(reader.bytes() == 256 + 8 * std::size_t{kSlot_bytes});
+    frames.write(particular_frame(21));
+    CHECK(Numbers{number(64), number(72)} ==
+          Numbers{-0.0175, low_sensor().display.cscope_span_rad});
+    CHECK(Numbers{number(80), number(88), number(96)} == Numbers{-40.0, 3.0, 17.5});
+    CHECK(reader.number(104) == 21);
   }
   CHECK(access(("/dev/shm/" + name).c_str(), F_OK) != 0);
+}
+
+// A line for each row of the second.
+TEST_CASE("A slot of shared memory is what its table says", "[shared_frames]") {
+  const std::string name = own_name();
+  SharedFrames frames(name, low_sensor(), 17.5);
+  const Reader reader(name);
+  auto early = particular_frame(13);
+  early.errors = {};
+  early.outside_volume = false;
+  frames.write(early);
+  const std::size_t slot = 256 + 21 % 8 * reader.at<std::uint32_t>(20);
+  const auto number = [&](std::size_t at) { return reader.at<double>(slot + at); };
+  using Numbers = std::vector<double>;
+  CHECK(number(96) == 0.0);
+  CHECK(Numbers{number(128), number(136)} == Numbers{-1.0, -1.0});  // not known yet
+  const auto frame = particular_frame(21);                          // in the same slot
+  frames.write(frame);
+  CHECK(reader.at<std::uint64_t>(slot) == 42);
+  CHECK(reader.at<std::uint64_t>(slot + 8) == 21);
+  CHECK(number(16) == 21.0 / 16.0);
+  CHECK(Numbers{number(24), number(32), number(40)} == Numbers{0.9, 0.2, 300.0});
+  CHECK(number(48) == Approx(0.1).epsilon(1e-12));
+  CHECK(number(56) == Approx(-0.05).epsilon(1e-12));
+  CHECK(number(64) == Approx(2.5).epsilon(1e-12));
+  CHECK(Numbers{number(72), number(80), number(88), number(96)} ==
+        Numbers{1e-3 * 41.0, 1e-3 * 67.0, 4.0, 1.0});
+  CHECK(Numbers{number(104), number(112), number(120)} == Numbers{-0.0175, -40.0, 3.0});
+  CHECK(Numbers{number(128), number(136)} == Numbers{1.5, 2.5});
+  CHECK(reader.pixels(slot + 192, 164 * 524) == frame.bscope.pixels);
+  CHECK(reader.pixels(slot + 192 + 164 * 524, 164 * 300) == frame.cscope.pixels);
+}
+
+TEST_CASE("The newest frame of many is whole, in the slot of its number", "[shared_frames]") {
+  const std::string name = own_name();
+  SharedFrames frames(name, sensor(), 16.0);
+  const Reader reader(name);
+  for (std::uint64_t number = 1; number <= 20; ++number) frames.write(frame_of(number));
+  const auto newest = reader.newest();
+  REQUIRE(newest.has_value());
+  CHECK(newest->first == 20);
+  CHECK(newest->second == std::vector<std::uint8_t>(2 * 164 * 524, 20));
+  CHECK(frames.newest() == 20);
+  for (std::uint64_t number = 13; number <= 20; ++number)
+    CHECK(reader.at<std::uint64_t>(256 + number % 8 * reader.at<std::uint32_t>(20) + 8) == number);
 }
 
 TEST_CASE("No reader ever takes a torn frame", "[shared_frames]") {
