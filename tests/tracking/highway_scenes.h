@@ -1,6 +1,8 @@
 // The four scenarios of the highway file as plain data (y to the right), and runs of the tracker.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "core/highway.h"
@@ -34,6 +36,23 @@ inline core::HighwayScenario scene(double duration_s, double radar_speed_mps,
 
 inline core::HighwayScenario one_stopped_car() {
   return scene(3.0, kRoadSpeed_mps, {car("A", 150.0, 0.0, 0.0)});
+}
+// A is not measured from 0.475 s to 0.975 s, in frames 10 to 19; B always is.
+inline core::HighwayScenario one_hidden_for_half_a_second() {
+  core::HighwayTarget hidden = car("A", 60.0, 0.0, kRoadSpeed_mps + 2.0);
+  hidden.suppressed = {{0.475, 0.975}};
+  return scene(3.0, kRoadSpeed_mps, {hidden, car("B", 100.0, 0.0, kRoadSpeed_mps - 3.0)});
+}
+// How often the target of that number is measured in the frame, to a metre and a metre per second.
+inline std::ptrdiff_t times_measured(const core::HighwayScenario& scenario, std::size_t target,
+                                     int frame,
+                                     const std::vector<tracking::RadarMeasurement>& seen) {
+  const core::HighwayTruth truth = core::truth_at(
+      scenario.targets[target], scenario.radar_speed_mps, highway_radar(), frame * 0.05);
+  return std::count_if(seen.begin(), seen.end(), [&](const auto& one) {
+    return std::abs(one.range_m - truth.range_m) <= 1.0 &&
+           std::abs(one.range_rate_mps - truth.range_rate_mps) <= 1.0;
+  });
 }
 inline core::HighwayScenario six_vehicles() {
   return scene(

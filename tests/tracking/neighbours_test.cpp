@@ -25,6 +25,9 @@ core::HighwayScenario beside(double range_m, double apart_m, double late_s) {
 struct Followed {
   ScenarioScore score;
   std::size_t at_end = 0;
+  double two_from_s = -1.0;  // when two tracks were confirmed first
+  int coasted =
+      0;  // the most frames that a confirmed track was not measured in, one after the other
   MeanSquare nees;
 };
 
@@ -40,6 +43,9 @@ Followed follow(const core::HighwayScenario& scenario, const SampledRadar* sampl
       [&](const Frame& frame) {
         result.score.add(scenario, frame);
         result.at_end = frame.confirmed().size();
+        if (result.at_end == 2 && result.two_from_s < 0.0) result.two_from_s = frame.time_s;
+        for (const Track& track : frame.tracker->tracks())
+          if (track.confirmed) result.coasted = std::max(result.coasted, track.coasted);
         for (const auto& [target, id] : result.score.mot.current_match())
           for (const Track& track : frame.tracker->tracks())
             if (track.id == id)
@@ -56,6 +62,8 @@ TEST_CASE("A neighbour that is first seen late has a track from then on", "[trac
     const Followed followed = follow(beside(40.0, apart_m, 0.5));
     INFO(apart_m);
     CHECK(followed.at_end == 2);
+    CHECK(followed.two_from_s >= 0.5);
+    CHECK(followed.two_from_s < 0.75);
     CHECK(followed.score.mot.switches() == 0);
     // It is there, and cannot be known, for 10 of 61 frames.
     CHECK(followed.score.mot.mota() >= 1.0 - (10.0 + 3.0) / 122.0);
@@ -68,6 +76,8 @@ TEST_CASE("A track seen for a third of a second survives a gap of 0.6 s", "[trac
     target.suppressed = {{from_s, from_s + 0.6}};
     const Followed followed = follow(scene(3.0, kRoadSpeed_mps, {target}));
     INFO(from_s);
+    CHECK(followed.coasted >= 11);  // 0.6 s, but for how its ends are rounded
+    CHECK(followed.at_end == 1);
     CHECK(followed.score.mot.switches() == 0);
     CHECK(followed.score.mot.mota() > 0.97);
   }
@@ -156,8 +166,10 @@ TEST_CASE("From samples, a pair that merges in range is one target, or two whose
     for (const double apart_m : {0.05, 0.1}) {
       const Followed followed = follow(beside(range_m, apart_m, 0.0), &radar);
       INFO(range_m << " m, " << apart_m << " m apart");
+      CHECK(followed.at_end >= 1);
       CHECK(followed.score.mot.false_tracks() == 0);
       CHECK(followed.score.mot.switches() == 0);
+      CHECK(followed.nees.count() > 50);
       CHECK(followed.nees.mean() < 10.0);
     }
 }

@@ -38,6 +38,17 @@ TEST_CASE("From samples, a lone car is measured at the bound, in every frame, wi
   CHECK(azimuth.rms() < 1.5);
 }
 
+TEST_CASE("From samples, a target is measured in every frame but those of its gap", "[sampled]") {
+  const SampledRadar radar(highway_radar());
+  const core::HighwayScenario scenario = one_hidden_for_half_a_second();
+  for (const int frame : {0, 9, 10, 15, 19, 20, 29}) {
+    INFO("frame " << frame);
+    const auto seen = radar.measure(scenario, 4, 0, frame);
+    CHECK(times_measured(scenario, 0, frame, seen) == (frame >= 10 && frame < 20 ? 0 : 1));
+    CHECK(times_measured(scenario, 1, frame, seen) == 1);
+  }
+}
+
 // Chirps of 60 us tell speeds within 16.4 m/s apart: 65 m/s is two folds away.
 TEST_CASE("From samples, a speed is found in whatever fold it lies", "[sampled]") {
   core::HighwayRadar slow = highway_radar();

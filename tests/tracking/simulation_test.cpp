@@ -172,6 +172,21 @@ TEST_CASE("Missed and false measurements come at their rates, the same in every 
                   core::InputError);
 }
 
+TEST_CASE("A target is measured in every frame but those of its gap, its neighbour in all",
+          "[highway]") {
+  const core::HighwayScenario scenario = one_hidden_for_half_a_second();
+  for (const Scheme scheme : {Scheme::triangle, Scheme::two_slopes, Scheme::two_stage}) {
+    SimulationSettings settings;
+    settings.scheme = scheme;
+    for (int frame = 0; frame < 30; ++frame) {
+      INFO("scheme " << static_cast<int>(scheme) << ", frame " << frame);
+      const auto seen = simulated_frame(scenario, highway_radar(), settings, 4, 0, frame);
+      CHECK(times_measured(scenario, 0, frame, seen) == (frame >= 10 && frame < 20 ? 0 : 1));
+      CHECK(times_measured(scenario, 1, frame, seen) == 1);
+    }
+  }
+}
+
 TEST_CASE("Merged beats say how wrong they may be, lone ones that they are right", "[highway]") {
   for (const Scheme scheme : {Scheme::triangle, Scheme::two_stage}) {
     SimulationSettings settings;
