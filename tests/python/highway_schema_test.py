@@ -1,6 +1,7 @@
 """Road scenarios: the JSON Schema and the program agree on what is one."""
 
 import copy
+import csv
 import json
 import os
 import subprocess
@@ -94,23 +95,51 @@ def test_the_schema_and_the_program_say_the_same(program, schema, traffic, tmp_p
     assert ended.returncode == (0 if good else 3), ended.stderr
 
 
-def test_a_scenarios_radar_and_gaps_are_obeyed(program, traffic, tmp_path):
-    """A radar of 30 dB noise figure more measures worse, and a target in a gap not at all."""
-    target = traffic["scenarios"][0]["targets"][0]["id"]
-    errors, measured = [], []
-    for number, extra in enumerate(({}, {"radar_overrides": {"noise_figure_db": 34.5}},
-                                    {"suppressed_detections": [{"id": target, "from_s": 0, "to_s": 1e6}]})):
-        scenario = copy.deepcopy(traffic)
-        scenario["scenarios"][0].update(extra)
-        file = tmp_path / f"{number}.json"
-        file.write_text(json.dumps(scenario), encoding="utf-8")
-        out = tmp_path / f"out{number}"
-        subprocess.run([program, "track", file, "-o", out, "-q"], check=True)
-        errors.append(json.loads((out / "run.json").read_text())["scenarios"][0]["range_rmse_m"])
-        (table,) = out.glob("*/measurements.csv")
-        measured.append(len(table.read_text().splitlines()) - 1)
-    assert errors[1] > 5 * errors[0]
-    assert measured[2] < measured[0]
+def tracked(program, traffic, folder, extra):
+    """The first scenario with other members: what run.json tells of it, and its measurements."""
+    scenario = copy.deepcopy(traffic)
+    scenario["scenarios"][0].update(extra)
+    folder.mkdir()
+    (folder / "traffic.json").write_text(json.dumps(scenario), encoding="utf-8")
+    subprocess.run([program, "track", folder / "traffic.json", "-o", folder / "out", "-q"], check=True)
+    told = json.loads((folder / "out/run.json").read_text())["scenarios"][0]
+    (table,) = (folder / "out").glob("*/measurements.csv")
+    with open(table, encoding="utf-8", newline="") as file:
+        return told, [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
+
+
+def test_a_scenarios_radar_is_obeyed(program, traffic, tmp_path):
+    """A radar of 30 dB noise figure more measures worse."""
+    quiet, _ = tracked(program, traffic, tmp_path / "quiet", {})
+    noisy, _ = tracked(program, traffic, tmp_path / "noisy", {"radar_overrides": {"noise_figure_db": 34.5}})
+    assert noisy["range_rmse_m"] > 5 * quiet["range_rmse_m"]
+
+
+def test_a_target_is_not_measured_in_its_gap_and_nothing_else_is_missing(program, traffic, tmp_path):
+    one = traffic["scenarios"][0]["targets"][0]  # alone on its place
+    speed = one["velocity_mps"][0] - traffic["scenarios"][0]["ego_speed_mps"]
+    gap = {"suppressed_detections": [{"id": one["id"], "from_s": 0.975, "to_s": 1.975}]}  # 20 frames
+    _, before = tracked(program, traffic, tmp_path / "whole", {})
+    _, after = tracked(program, traffic, tmp_path / "gap", gap)
+
+    def in_gap(row):
+        return 0.975 <= row["time_s"] < 1.975
+
+    def of_one(row):
+        range_m = one["position_m"][0] + speed * row["time_s"]
+        return abs(row["range_m"] - range_m) < 1 and abs(row["range_rate_mps"] - speed) < 1
+
+    def alike(row, other):  # the noise of the others is drawn anew
+        apart = [abs(row[name] - other[name]) for name in ("time_s", "range_m", "range_rate_mps", "azimuth_rad")]
+        return max(apart) < 0.05
+
+    assert [row for row in after if not in_gap(row)] == [row for row in before if not in_gap(row)]
+    hidden = [row for row in before if in_gap(row) and of_one(row)]
+    others = [row for row in before if in_gap(row) and not of_one(row)]
+    left = [row for row in after if in_gap(row)]
+    assert len(hidden) == 20 and len(others) > 50
+    assert len(left) == len(others)
+    assert all(any(alike(row, other) for other in left) for row in others)
 
 
 def test_a_files_ramps_are_obeyed(program, traffic, tmp_path):
