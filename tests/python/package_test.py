@@ -40,5 +40,5 @@ def test_everything_public_is_documented(name):
     assert thing.__doc__ and not thing.__doc__.startswith("dict(")
     if isinstance(thing, type):
         for member, value in vars(thing).items():
-            if not member.startswith("_") and callable(getattr(value, "fget", value)) and callable(value):
+            if not member.startswith("_") and (isinstance(value, (property, classmethod)) or callable(value)):
                 assert value.__doc__, f"{name}.{member}"

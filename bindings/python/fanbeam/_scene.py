@@ -192,6 +192,7 @@ class Frame:
 
     @property
     def pose(self) -> Pose:
+        """Where it was rendered from: `meta["pose"]`."""
         at: Pose = self.meta["pose"]
         return at
 
@@ -356,6 +357,7 @@ class Scene:
 
     @property
     def surface(self) -> str:
+        """What lies on the ground and on buildings now, by the names of set_surface."""
         return self._core.facts()["surface"]
 
     def set_sensor(
@@ -475,10 +477,12 @@ class Scene:
 
     @property
     def name(self) -> str:
+        """What the scene's file calls it."""
         return self.facts["name"]
 
     @property
     def sensor(self) -> str:
+        """What the sensor's file calls the sensor."""
         return self.facts["sensor"]
 
     @property
