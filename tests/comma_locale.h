@@ -5,9 +5,9 @@
 #include <clocale>
 #include <cstdlib>
 #include <filesystem>
-#include <iostream>
 #include <string>
 
+#include "tests/needed_program.h"
 #include "tests/terrain/ascii_grid.h"
 
 namespace fanbeam::tests {
@@ -16,10 +16,7 @@ namespace fanbeam::tests {
 class CommaLocale {
  public:
   CommaLocale() {
-    if (std::system("command -v localedef >/dev/null 2>&1") != 0) {
-      std::cout << "[skipped] needs the localedef program\n";
-      return;
-    }
+    if (!needed_program("localedef")) return;
     folder_.write("numbers",
                   "comment_char %\nescape_char /\nLC_NUMERIC\ndecimal_point \",\"\n"
                   "thousands_sep \".\"\ngrouping 3;3\nEND LC_NUMERIC\n");

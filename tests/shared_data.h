@@ -1,13 +1,13 @@
 // The shared real data (terrain, flights, models) is not part of the project. A test that needs it
-// skips with a message where it is absent; with FANBEAM_REQUIRE_DATA=1 that is a failure.
+// skips where it is absent.
 #pragma once
 
-#include <catch2/catch.hpp>
 #include <cstdlib>
 #include <filesystem>
-#include <iostream>
 #include <optional>
 #include <string>
+
+#include "tests/skipped.h"
 
 namespace fanbeam::tests {
 
@@ -19,10 +19,7 @@ inline std::optional<std::filesystem::path> shared_data(const std::string& relat
       from_environment != nullptr ? std::filesystem::path(from_environment)
                                   : std::filesystem::path(FANBEAM_SOURCE_DIR) / "../shared/data";
   if (std::filesystem::exists(root / relative)) return root / relative;
-  const char* required = std::getenv("FANBEAM_REQUIRE_DATA");
-  if (required != nullptr && std::string(required) == "1")
-    FAIL("shared data is required but missing: " << (root / relative).string());
-  std::cout << "[skipped] needs shared data: " << relative << '\n';
+  skipped("shared data: " + (root / relative).string());
   return std::nullopt;
 }
 

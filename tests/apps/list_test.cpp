@@ -1,11 +1,11 @@
 // fanbeam list: what it names exists and works.
 #include <algorithm>
-#include <iostream>
 #include <set>
 
 #include "renderer/plan/effect_catalogue.h"
 #include "session/products/products.h"
 #include "tests/apps/program.h"
+#include "tests/needed_program.h"
 
 using namespace fanbeam::tests;
 namespace fs = std::filesystem;
@@ -117,8 +117,7 @@ TEST_CASE("list materials and effects name what the library and the plan know", 
 
 TEST_CASE("A product that list products names is made, in the files that it names", "[cli][list]") {
   const nlohmann::json products = listed("products");
-  const bool has_ffmpeg = run_shell("command -v ffmpeg").exit_code == 0;
-  if (!has_ffmpeg) std::cout << "[skipped] the preview needs the ffmpeg program\n";
+  const bool has_ffmpeg = needed_program("ffmpeg");  // for the preview
   const TemporaryFolder folder;
   std::string all;
   for (const auto& product : products)

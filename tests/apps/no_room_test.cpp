@@ -3,10 +3,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <iostream>
 
 #include "tests/apps/child.h"
 #include "tests/apps/program.h"
+#include "tests/needed_program.h"
 
 using namespace fanbeam;
 using namespace fanbeam::tests;
@@ -62,7 +62,7 @@ const std::string kOwnMounts = "unshare --map-root-user --mount sh -c ";
 bool can_mount() {
   if (std::system((kOwnMounts + "'mount -t tmpfs none /mnt' >/dev/null 2>&1").c_str()) == 0)
     return true;
-  std::cout << "[not run] a small disk needs user namespaces or root rights\n";
+  skipped("user namespaces or root rights, for a small disk");
   return false;
 }
 
@@ -210,22 +210,13 @@ std::vector<Writing> writings() {
       {"plots of materials", "materials plot short_grass asphalt_worn ", "gnuplot"}};
 }
 
-bool can_run(const std::string& name) {
-  return name.empty() ||
-         std::system((name + " --version >/dev/null 2>&1 || " + name + " -version >/dev/null 2>&1")
-                         .c_str()) == 0;
-}
-
 }  // namespace
 
 TEST_CASE("F17 whatever writes: no file or a whole one, and exit code 4, by disk and by limit",
           "[no_room]") {
   const TemporaryFolder folder;
   for (const Writing& writing : writings()) {
-    if (!can_run(writing.needs)) {
-      std::cout << "[not run] " << writing.what << " need " << writing.needs << '\n';
-      continue;
-    }
+    if (*writing.needs != '\0' && !needed_program(writing.needs)) continue;
     INFO(writing.what);
     // A plot has one file; all else has a folder.
     const bool plot = writing.command.starts_with("materials");
@@ -267,10 +258,7 @@ TEST_CASE("F17 whatever writes: no file or a whole one, and exit code 4, by disk
 }
 
 TEST_CASE("F17 a film that a killed run was making is gone after --resume", "[no_room]") {
-  if (!can_run("ffmpeg")) {
-    std::cout << "[not run] needs the ffmpeg program\n";
-    return;
-  }
+  if (!needed_program("ffmpeg")) return;
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "out";
   {

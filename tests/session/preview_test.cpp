@@ -2,19 +2,15 @@
 #include "session/products/preview.h"
 
 #include <catch2/catch.hpp>
-#include <cstdlib>
-#include <iostream>
 
+#include "tests/needed_program.h"
 #include "tests/scenes/scene_folder.h"
 
 using namespace fanbeam;
 
 TEST_CASE("Pictures with an odd number of rows or columns become a film of any format",
           "[preview]") {
-  if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) {
-    std::cout << "[skipped] needs the ffmpeg program\n";
-    return;
-  }
+  if (!tests::needed_program("ffmpeg")) return;
   const tests::TemporaryFolder folder;
   for (const std::string_view format : session::kPreviewFormats)
     for (const auto& [columns, rows] : {std::pair{48, 31}, std::pair{47, 32}, std::pair{48, 32}}) {

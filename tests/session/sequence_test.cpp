@@ -2,14 +2,13 @@
 #include "session/sequence.h"
 
 #include <catch2/catch.hpp>
-#include <cstdlib>
-#include <iostream>
 #include <set>
 #include <span>
 
 #include "core/image.h"
 #include "core/units.h"
 #include "sensors/display/display.h"
+#include "tests/needed_program.h"
 #include "tests/scenes/scene_folder.h"
 
 using namespace fanbeam;
@@ -224,10 +223,7 @@ TEST_CASE("Frames refined for a C-scope too are others than those of the B-scope
 }
 
 TEST_CASE("A film has its name only once its folder knows that it is its own", "[sequence]") {
-  if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) {
-    std::cout << "[skipped] needs the ffmpeg program\n";
-    return;
-  }
+  if (!tests::needed_program("ffmpeg")) return;
   const TemporaryFolder scene, out;
   const auto session = opened(scene);
   const auto folder = out.path() / "run";
