@@ -2,7 +2,6 @@
 // taken up again.
 #include <algorithm>
 #include <filesystem>
-#include <iostream>
 
 #include "core/image.h"
 #include "tests/apps/program.h"
@@ -312,21 +311,6 @@ TEST_CASE("--resume notices that a file which the scene names has changed", "[re
   CHECK(run_fanbeam(words).output.find("(1 already there)") != std::string::npos);
   folder.write("flight.csv", rows + "# checked\n");
   CHECK(run_fanbeam(words).output.find("already there") == std::string::npos);
-}
-
-TEST_CASE("A preview is a video of all frames", "[render]") {
-  if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) {
-    std::cout << "[skipped] needs the ffmpeg program\n";
-    return;
-  }
-  const TemporaryFolder folder;
-  for (const std::string format : {"mp4", "gif"}) {
-    render("obstacle-field", folder.path() / format,
-           kCheapFrames + "--products preview --preview-format " + format);
-    CHECK(fs::file_size(folder.path() / format / ("preview." + format)) > 1000);
-    CHECK(contents(folder.path() / format).size() ==
-          3);  // with run.json and timing.json: no leftovers
-  }
 }
 
 TEST_CASE("Without ffmpeg a preview is refused with exit code 4 and the package's name",
