@@ -128,6 +128,9 @@ TEST_CASE("The scene's own flight comes out in degrees of freedom that lead back
   CHECK(pose.position.latitude_rad == expected.position.latitude_rad);
   CHECK(pose.position.longitude_rad == expected.position.longitude_rad);
   CHECK(pose.position.height_m == expected.position.height_m);
+  CHECK((pose.v_N_mps == expected.v_N_mps));
+  CHECK(pose.v_N_mps.x > 30.0);  // to the north, and down
+  CHECK(pose.v_N_mps.z > 1.0);
   // Through angles and back: a few rounding errors; q and -q are one attitude.
   CHECK(std::abs(glm::dot(pose.q_NB, expected.q_NB)) == Approx(1.0).epsilon(1e-14));
 
@@ -136,50 +139,104 @@ TEST_CASE("The scene's own flight comes out in degrees of freedom that lead back
   CHECK(none.time_s == 0.0);
 }
 
-TEST_CASE("Ground truth through C is that of a frame's layers, with names", "[bindings]") {
-  const TemporaryFolder folder;
-  const CSession c = tests::c_opened(folder);
-  const auto session = opened(folder);
-  const fanbeam_pose pose = tests::flown(c);
+namespace {
+
+using Truth = std::unique_ptr<fanbeam_layers, decltype(&fanbeam_free_layers)>;
+
+Truth truth_of(const CSession& session, const fanbeam_pose& pose) {
   fanbeam_output output = sized<fanbeam_output>();
   output.layers = FANBEAM_BSCOPE | FANBEAM_CSCOPE;
-  REQUIRE(fanbeam_render(c.get(), &pose, 0, &output) == FANBEAM_OK);
-  const std::unique_ptr<fanbeam_layers, decltype(&fanbeam_free_layers)> truth(output.truth,
-                                                                              &fanbeam_free_layers);
-  REQUIRE(truth != nullptr);
-  const renderer::Frame frame =
-      session->render(tests::core_pose(pose), 0,
-                      {.bscope = false, .cscope = false, .layers = true, .cscope_layers = true});
-  const renderer::LayerSet& bscope = frame.layers->bscope;
-  const renderer::LayerSet& cscope = frame.layers->cscope;
+  REQUIRE(fanbeam_render(session.get(), &pose, 0, &output) == FANBEAM_OK);
+  REQUIRE(output.truth != nullptr);
+  return {output.truth, &fanbeam_free_layers};
+}
 
-  std::vector<float> values(bscope.nrcs.size());
-  const auto copied = [&](std::uint32_t scope, const char* name) {
+renderer::FrameLayers layers_of(const session::Session& session, const fanbeam_pose& pose) {
+  return *session
+              .render(tests::core_pose(pose), 0,
+                      {.bscope = false, .cscope = false, .layers = true, .cscope_layers = true})
+              .layers;
+}
+
+}  // namespace
+
+TEST_CASE("Ground truth through C is that of a frame's layers", "[bindings]") {
+  const TemporaryFolder folder;
+  const CSession c = tests::c_opened(folder);
+  const fanbeam_pose pose = tests::flown(c);
+  const Truth truth = truth_of(c, pose);
+  const auto [bscope, cscope] = layers_of(*opened(folder), pose);
+  const auto copied = [&](std::uint32_t scope, const char* name, std::vector<float>& values) {
     return fanbeam_layer_values(truth.get(), scope, name, values.data(), values.size());
   };
-  REQUIRE(copied(FANBEAM_BSCOPE, "nrcs") == FANBEAM_OK);
-  CHECK((values == bscope.nrcs));
-  REQUIRE(copied(FANBEAM_BSCOPE, "elevation_rad") == FANBEAM_OK);
-  CHECK((values == bscope.elevation_rad));
-  CHECK(copied(FANBEAM_BSCOPE, "range_m") == FANBEAM_BAD_INPUT);
+  struct Layer {
+    const char* name;
+    std::vector<float> renderer::LayerSet::*values;
+    bool of_bscope, of_cscope;
+  };
+  using renderer::LayerSet;
+  for (const Layer& layer : {Layer{"visibility", &LayerSet::visibility, true, true},
+                             Layer{"range_m", &LayerSet::range_m, false, true},
+                             Layer{"grazing_rad", &LayerSet::grazing_rad, true, true},
+                             Layer{"nrcs", &LayerSet::nrcs, true, true},
+                             Layer{"elevation_rad", &LayerSet::elevation_rad, true, false},
+                             Layer{"double_bounce", &LayerSet::double_bounce, true, true}})
+    for (const std::uint32_t scope : {FANBEAM_BSCOPE, FANBEAM_CSCOPE}) {
+      INFO(layer.name << " of scope " << scope);
+      const LayerSet& set = scope == FANBEAM_BSCOPE ? bscope : cscope;
+      std::vector<float> values(set.nrcs.size(), -7.0F);
+      if (!(scope == FANBEAM_BSCOPE ? layer.of_bscope : layer.of_cscope)) {
+        CHECK(copied(scope, layer.name, values) == FANBEAM_BAD_INPUT);
+        continue;
+      }
+      REQUIRE(copied(scope, layer.name, values) == FANBEAM_OK);
+      CHECK((values == set.*layer.values));
+    }
+  std::vector<float> values(bscope.nrcs.size());
+  CHECK(copied(FANBEAM_BSCOPE, "range_m", values) == FANBEAM_BAD_INPUT);
   CHECK(told("visibility, grazing_rad, nrcs"));
-  CHECK(copied(3, "nrcs") == FANBEAM_BAD_INPUT);
+  CHECK(copied(3, "nrcs", values) == FANBEAM_BAD_INPUT);
   CHECK(fanbeam_layer_values(truth.get(), FANBEAM_BSCOPE, "nrcs", values.data(), 10) ==
         FANBEAM_SHORT_BUFFER);
-  values.resize(cscope.nrcs.size());
-  REQUIRE(copied(FANBEAM_CSCOPE, "range_m") == FANBEAM_OK);
-  CHECK((values == cscope.range_m));
+}
 
-  std::vector<std::uint32_t> ids(bscope.object.size());
-  REQUIRE(fanbeam_layer_ids(truth.get(), FANBEAM_BSCOPE, "object", ids.data(), ids.size()) ==
-          FANBEAM_OK);
-  CHECK(std::equal(ids.begin(), ids.end(), bscope.object.begin(), bscope.object.end()));
-  REQUIRE(fanbeam_layer_ids(truth.get(), FANBEAM_BSCOPE, "material", ids.data(), ids.size()) ==
-          FANBEAM_OK);
-  CHECK(std::equal(ids.begin(), ids.end(), bscope.material.begin(), bscope.material.end()));
-  const auto& names = session->scene()->world.geometry->material_names;
-  for (std::uint32_t id = 0; id < names.size(); ++id)
-    CHECK(fanbeam_layer_id_name(truth.get(), "material", id) == names[id]);
-  CHECK(fanbeam_layer_id_name(truth.get(), "material", FANBEAM_NO_MATERIAL) == nullptr);
-  CHECK(fanbeam_layer_id_name(truth.get(), "frogs", 0) == nullptr);
+TEST_CASE("Materials and objects of ground truth through C have the scene's names, targets last",
+          "[bindings]") {
+  const TemporaryFolder folder;
+  const CSession c = tests::c_opened(folder, tests::kSmallScene +
+                                                 "\n[[target]]\nname = \"drone\"\n"
+                                                 "at = { runway = \"36\", behind_threshold_m = "
+                                                 "100.0 }\nrcs = { rcs_dBsm = 10.0 }\n");
+  const fanbeam_pose pose = tests::flown(c);
+  const Truth truth = truth_of(c, pose);
+  const auto session = opened(folder);
+  const auto [bscope, cscope] = layers_of(*session, pose);
+  for (const std::uint32_t scope : {FANBEAM_BSCOPE, FANBEAM_CSCOPE}) {
+    const renderer::LayerSet& set = scope == FANBEAM_BSCOPE ? bscope : cscope;
+    std::vector<std::uint32_t> ids(set.object.size());
+    const auto copied = [&](const char* name) {
+      return fanbeam_layer_ids(truth.get(), scope, name, ids.data(), ids.size());
+    };
+    REQUIRE(copied("object") == FANBEAM_OK);
+    CHECK(std::equal(ids.begin(), ids.end(), set.object.begin(), set.object.end()));
+    REQUIRE(copied("material") == FANBEAM_OK);
+    CHECK(std::equal(ids.begin(), ids.end(), set.material.begin(), set.material.end()));
+  }
+  const auto name_of = [&](const char* layer, std::size_t id) {
+    const char* name = fanbeam_layer_id_name(truth.get(), layer, static_cast<std::uint32_t>(id));
+    return std::string(name != nullptr ? name : "none");
+  };
+  const auto& geometry = *session->scene()->world.geometry;
+  for (std::size_t id = 0; id < geometry.material_names.size(); ++id)
+    CHECK(name_of("material", id) == geometry.material_names[id]);
+  CHECK(name_of("material", geometry.material_names.size()) == "none");
+  CHECK(name_of("material", FANBEAM_NO_MATERIAL) == "none");
+  const std::size_t objects = geometry.object_names.size();
+  REQUIRE(objects > 2);  // terrain, runway, hangar
+  for (std::size_t id = 0; id < objects; ++id)
+    CHECK(name_of("object", id) == geometry.object_names[id]);
+  CHECK(std::count(geometry.object_names.begin(), geometry.object_names.end(), "hangar") == 1);
+  CHECK(name_of("object", objects) == "drone");
+  CHECK(name_of("object", objects + 1) == "none");
+  CHECK(name_of("frogs", 0) == "none");
 }
