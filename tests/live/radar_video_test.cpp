@@ -8,9 +8,11 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "core/errors.h"
+#include "core/stop.h"
 #include "core/units.h"
 #include "tests/sensors/shipped_sensor.h"
 
@@ -133,10 +135,9 @@ TEST_CASE("F15 columns of a frame are spread over its period, and nobody waits f
   }
 }
 
-TEST_CASE("The summary tells the levels of its frame, and a channel ends in the middle of a sweep",
-          "[radar_video][threads]") {
+TEST_CASE("The summary tells the levels of its frame", "[radar_video]") {
   const Ear ear;
-  live::RadarVideo video(to(ear), small_sensor(), "test", 0.5, false);
+  live::RadarVideo video(to(ear), small_sensor(), "test", 1000.0, true);
   const auto frame = small_frame(1);
   frame->low_dB = 7.5;
   frame->high_dB = -31.0;
@@ -144,7 +145,32 @@ TEST_CASE("The summary tells the levels of its frame, and a channel ends in the 
   const auto summary = ear.hear();
   const std::string text(summary.begin() + 9, summary.end() - 3);
   CHECK(text.find("8 bit 7.5 to -31 dB") != std::string::npos);
-  ear.hear();
+}
+
+// A sweep takes 1.8 s, its 40 columns 45 ms each.
+TEST_CASE("A channel that is told to stop ends in the middle of a sweep, any other with it",
+          "[radar_video][threads]") {
+  sensors::Sensor wide = small_sensor();
+  wide.scan.columns = 40;
+  const auto frame = small_frame(1);
+  frame->bscope = {40, 3, std::vector<std::uint8_t>(120, 7)};
+  for (const bool told : {true, false}) {
+    INFO("told: " << told);
+    const Ear ear;
+    std::optional<live::RadarVideo> video;
+    video.emplace(to(ear), wide, "test", 0.5, false);
+    video->write(frame);
+    REQUIRE(ear.hear().at(7) == 1);
+    REQUIRE(ear.hear().at(7) == 2);  // the first column
+    core::StopSource source;
+    if (told) source.request();
+    const core::StopToken token = source.token();
+    const core::StopScope scope(token);
+    const auto begin = live::Clock::now();
+    video.reset();
+    const double took_s = live::seconds_between(begin, live::Clock::now());
+    CHECK((told ? took_s < 0.5 : took_s > 1.0));
+  }
 }
 
 TEST_CASE("A place that cannot be sent to and cells beyond the category are refused",

@@ -436,6 +436,9 @@ TEST_CASE("The frame number moves speckle, and nothing else", "[session]") {
                         two = session->render(pose, 2);
   CHECK(same(one, again));
   CHECK_FALSE(same(one, two));
+  // In the mean there is no speckle.
+  const auto mean = opened_text(folder, tests::kSmallScene, {.sample = false, .seed = 7});
+  CHECK(same(mean->render(pose, 1), mean->render(pose, 2)));
 }
 
 TEST_CASE("Where nobody asks for heights, no C-scope costs a plan anything", "[session]") {

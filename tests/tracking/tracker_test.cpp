@@ -407,6 +407,15 @@ TEST_CASE("Of three cars in one cell none is lost", "[tracker]") {
   REQUIRE(confirmed(tracker) == 3);
   for (int i = 0; i < 40; ++i) step(0.0, true);
   CHECK(confirmed(tracker) == 3);
+  // On the other side of the one that stands, where 2 s at 0.8 m/s have brought them.
+  for (double apart_m = -0.64; apart_m > -5.0; apart_m -= 0.04) step(apart_m, false);
+  std::vector<double> ranges_m;
+  for (const Track& track : tracker.tracks())
+    if (track.confirmed) ranges_m.push_back(combined(track.state).mean[0]);
+  std::sort(ranges_m.begin(), ranges_m.end());
+  REQUIRE(ranges_m.size() == 3);
+  for (const std::size_t i : {0U, 1U, 2U})
+    CHECK(ranges_m[i] == Approx(55.04 + 4.96 * double(i)).epsilon(0.0).margin(0.2));
 }
 
 TEST_CASE("Frames that are missing end an unresolved pair as they end any track", "[tracker]") {
