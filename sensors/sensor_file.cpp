@@ -9,6 +9,7 @@
 #include "core/decibel.h"
 #include "core/units.h"
 #include "sensors/antenna/antenna_reader.h"
+#include "sensors/antenna/beam_pattern.h"
 #include "sensors/antenna/frequency_scan_file.h"
 #include "sensors/display/grey_reader.h"
 #include "sensors/receiver/window_file.h"
@@ -26,6 +27,7 @@ constexpr std::int64_t kMostColumns = 4096;
 constexpr std::int64_t kMostRows = 16384;
 constexpr std::int64_t kMostCells = 16777216;  // of one picture
 constexpr std::int64_t kMostLooks = 1000;
+constexpr double kLeastAngle_deg = 0.01;  // of a field of view and a C-scope
 
 NumberRange above_zero(double high) { return {0.0, high, true}; }
 
@@ -50,7 +52,8 @@ int required_whole(ConfigTable& table, std::string_view key, std::int64_t most) 
 void read_scan(ConfigTable table, Scan& scan) {
   scan.surface = static_cast<ScanSurface>(table.choice("surface", {"plane", "cone"}, 0));
   const double widest_deg = scan.surface == ScanSurface::cone ? 180.0 : 360.0;
-  scan.field_of_view_rad = required_angle_rad(table, "field_of_view_deg", above_zero(widest_deg));
+  scan.field_of_view_rad =
+      required_angle_rad(table, "field_of_view_deg", {kLeastAngle_deg, widest_deg});
   scan.columns = required_whole(table, "columns", kMostColumns);
   scan.frame_rate_Hz = table.required_number("frame_rate_Hz", {1e-3, 1000.0});
   scan.stabilised = table.boolean("stabilised", true);
@@ -99,7 +102,7 @@ double read_range(ConfigTable table, RangeGate& gate, std::int64_t columns) {
 void read_waveform(ConfigTable table, Waveform& waveform) {
   waveform.frequency_Hz = 1e9 * table.required_number("frequency_GHz", {0.1, 300.0});
   waveform.bandwidth_Hz = 1e6 * table.required_number("bandwidth_MHz", above_zero(1e5));
-  waveform.transmit_power_W = table.required_number("transmit_power_W", above_zero(1e9));
+  waveform.transmit_power_W = table.required_number("transmit_power_W", {1e-12, 1e9});
   read_window(table, waveform);
   waveform.doppler_compensated = table.boolean("doppler_compensated", true);
   waveform.doppler_place = table.place("doppler_compensated");
@@ -132,6 +135,19 @@ void check_columns(ConfigTable table, const Scan& scan, const BeamCut& beam) {
                       " deg, whose pictures err by more than their estimates say");
 }
 
+// What the beam reaches on both sides of the field of view is seen in columns as well.
+void check_margin(ConfigTable table, const Sensor& sensor) {
+  const double columns = 2.0 * reach_rad(sensor.antenna.azimuth) / sensor.scan.column_width_rad() +
+                         sensor.scan.columns;
+  if (columns * sensor.range.cells > static_cast<double>(4 * kMostCells))
+    table.error(
+        ErrorClass::limit, "columns", std::to_string(sensor.scan.columns),
+        "fewer or wider ones: with what the beam reaches beside the field of view they are " +
+            number_text(std::ceil(columns)) + ", at most " +
+            number_text(std::floor(4.0 * kMostCells / sensor.range.cells)) + " of " +
+            std::to_string(sensor.range.cells) + " range cells");
+}
+
 void read_receiver(ConfigTable table, const Scan& scan, Receiver& receiver) {
   receiver.noise_figure = core::power_from_dB(table.number("noise_figure_dB", {0.0, 60.0}, 0.0));
   receiver.loss = core::power_from_dB(table.number("loss_dB", {0.0, 60.0}, 0.0));
@@ -141,7 +157,8 @@ void read_receiver(ConfigTable table, const Scan& scan, Receiver& receiver) {
   const double longest_s =
       scan.frame_rate_Hz > 0.0 ? 1.0 / (scan.frame_rate_Hz * scan.columns * receiver.looks) : 1.0;
   // A dwell rounded to the digits of a sensor file may end a little after its column.
-  const NumberRange range_us = above_zero(1e6 * longest_s * (1.0 + 1e-6));
+  const double longest_us = 1e6 * longest_s * (1.0 + 1e-6);
+  const NumberRange range_us{std::min(1e-3, longest_us), longest_us};
   const auto dwell_us = table.optional_number("dwell_us", range_us);
   receiver.dwell_s = dwell_us ? 1e-6 * *dwell_us : longest_s;
 }
@@ -160,7 +177,7 @@ void read_cscope(ConfigTable table, const Sensor& sensor, Display& display) {
       static_cast<Display::CScopeMode>(table.choice("mode", Display::kCScopeModes, 0));
   const double beam_deg = core::degrees(sensor.antenna.elevation.half_power_width_rad);
   const double boresight_deg = core::degrees(sensor.antenna.boresight_elevation_rad);
-  const double span_deg = table.number("span_deg", above_zero(180.0), beam_deg);
+  const double span_deg = table.number("span_deg", {kLeastAngle_deg, 180.0}, beam_deg);
   const double top_deg = table.number("top_deg", {-90.0, 90.0}, boresight_deg + 0.5 * span_deg);
   if (table.has("top_deg") && table.has("span_deg") && top_deg - span_deg < -90.0)
     table.error(ErrorClass::range, "span_deg", number_text(span_deg),
@@ -220,6 +237,7 @@ Sensor read(ConfigTable root, const core::ProblemList& problems) {
   check_sweep(root.table("scan"), root.table("waveform"), sensor);
   check_bandwidth(root.table("waveform"), sensor.waveform, sensor.range);
   check_columns(root.table("scan"), sensor.scan, sensor.antenna.azimuth);
+  check_margin(root.table("scan"), sensor);
   return sensor;
 }
 

@@ -91,7 +91,7 @@ void NaiveCaster::cast_ray(const Frame& frame, const Turn& azimuth, std::size_t 
   }
   const double elevation_rad = elevations_rad_[elevation];
   double power_W_per_rad =
-      frame.radar_constant_W_m2 * step_rad_ * (cone ? azimuth.cosine : cosine) /
+      frame.radar_constant_W_m2 * step_rad_ * (cone ? std::max(azimuth.cosine, 0.0) : 1.0) /
       (range_m * range_m) *
       world_.nrcs.tables()[hit->material].sigma0_over_sine(-glm::dot(hit->normal, direction)) *
       elevation_gain_(elevation_rad - sensor.antenna.boresight_elevation_rad) *

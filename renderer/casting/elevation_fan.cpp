@@ -82,9 +82,13 @@ ElevationFan::ElevationFan(const World& world, const Sampling& sampling, Nearest
   const double reach_rad = sensors::reach_rad(antenna.elevation);
   lowest_rad_ = std::max(antenna.boresight_elevation_rad - reach_rad, -core::kPi / 2);
   highest_rad_ = std::min(antenna.boresight_elevation_rad + reach_rad, core::kPi / 2);
+  // The power of a ray is spread over its step: a narrow beam is sampled by parts of its width.
+  constexpr double kStepsPerBeam = 32.0;
+  sampling_.largest_step_rad =
+      std::min(sampling.largest_step_rad, antenna.elevation.half_power_width_rad / kStepsPerBeam);
   const sensors::Display& display = world.sensor.display;
   object_step_rad_ =
-      std::min(sampling.largest_step_rad,
+      std::min(sampling_.largest_step_rad,
                sampling.largest_step_rows * display.cscope_span_rad / display.cscope_rows);
 }
 

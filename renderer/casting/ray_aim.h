@@ -1,6 +1,7 @@
 // From elevation and azimuth in the antenna's frame to the direction of a ray in the scene.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/series.h"
@@ -59,7 +60,8 @@ class RayAim {
       batch.higher_x[i] = static_cast<float>(h.forward * f.x + h.right * r.x + h.up * u.x);
       batch.higher_y[i] = static_cast<float>(h.forward * f.y + h.right * r.y + h.up * u.y);
       batch.higher_z[i] = static_cast<float>(h.forward * f.z + h.right * r.z + h.up * u.z);
-      batch.jacobian[i] = cone ? ca : 1.0;  // ray_caster.h says why not cos(e)
+      // ray_caster.h says why not cos(e). Beyond 90 deg a cone has no directions.
+      batch.jacobian[i] = cone ? std::max(ca, 0.0) : 1.0;
     }
   }
 

@@ -127,8 +127,9 @@ BounceEcho BounceWeights::pair_of(const MirroredRays& ways, int k, const Bistati
 
 // As in ray_caster.h.
 double BounceWeights::jacobian(const MirroredRays& ways, int k) const {
-  return world_.sensor.scan.surface == sensors::ScanSurface::cone ? ways.angles.cos_azimuth[k]
-                                                                  : 1.0;
+  return world_.sensor.scan.surface == sensors::ScanSurface::cone
+             ? std::max(ways.angles.cos_azimuth[k], 0.0)
+             : 1.0;
 }
 
 }  // namespace fanbeam::renderer

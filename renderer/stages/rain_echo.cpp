@@ -155,8 +155,9 @@ class Echo {
     const glm::dvec3 along =
         sensors::direction(antenna_, azimuth_rad, elevation_rad, sensor_.scan.surface);
     // J of ray_caster.h.
-    const double jacobian =
-        sensor_.scan.surface == sensors::ScanSurface::cone ? std::cos(azimuth_rad) : 1.0;
+    const double jacobian = sensor_.scan.surface == sensors::ScanSurface::cone
+                                ? std::max(std::cos(azimuth_rad), 0.0)
+                                : 1.0;
     const double constant = sensor_.radar_constant_W_m2() * jacobian;
     const int cells = sensor_.range.cells;
     const double cell_m = sensor_.range.cell_m;

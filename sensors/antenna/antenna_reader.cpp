@@ -16,7 +16,7 @@ using core::ConfigTable;
 using core::ErrorClass;
 using core::number_text;
 
-constexpr core::NumberRange kGainRange{0.0, 1e9, true};
+constexpr core::NumberRange kGainRange{1e-9, 1e9};
 
 double stated_gain(ConfigTable& table) {
   const bool in_dB = table.has("peak_gain_dB");

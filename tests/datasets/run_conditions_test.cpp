@@ -80,8 +80,9 @@ class Field {
     for (const renderer::PointTarget& target : session_->scene()->world.targets) {
       if (target.name != "van") continue;
       const glm::dvec3 at_m = target.path.front().position_m;
-      CHECK(at_m.x == Approx(east_m).margin(0.5));  // places are given to a tenth of a metre
-      CHECK(at_m.y == Approx(north_m).margin(0.5));
+      CHECK(at_m.x ==
+            Approx(east_m).margin(0.5).epsilon(0.0));  // places are given to a tenth of a metre
+      CHECK(at_m.y == Approx(north_m).margin(0.5).epsilon(0.0));
       return;
     }
     FAIL("no van");

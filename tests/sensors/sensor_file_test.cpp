@@ -65,6 +65,15 @@ TEST_CASE("S10 sensor settings that make no sense are refused at load", "[sensor
       {"frame_rate_Hz = 16.0", "frame_rate_Hz = inf", "E-NONFINITE", "scan.frame_rate_Hz"},
       // c / 2B = 3747 m in a window of 3495 m.
       {"bandwidth_MHz = 22.473", "bandwidth_MHz = 0.04", "E-RANGE", "waveform.bandwidth_MHz"},
+      // A margin of more columns than an int holds, memory without end, power that is no number.
+      {"field_of_view_deg = 41.0", "field_of_view_deg = 1e-9", "E-RANGE", "scan.field_of_view_deg"},
+      {"field_of_view_deg = 41.0\ncolumns = 164", "field_of_view_deg = 0.01\ncolumns = 4096",
+       "E-LIMIT", "scan.columns"},
+      {"span_deg = 10.0", "span_deg = 1e-6", "E-RANGE", "display.cscope.span_deg"},
+      {"looks = 1", "looks = 1\ndwell_us = 1e-320", "E-RANGE", "receiver.dwell_us"},
+      {"transmit_power_W = 1.0", "transmit_power_W = 1e-320", "E-RANGE",
+       "waveform.transmit_power_W"},
+      {"peak_gain = 3250.0", "peak_gain = 1e-300", "E-RANGE", "antenna.peak_gain"},
       {"high_dB = 5.0", "high_dB = -55.0", "E-RANGE", "display.high_dB"},
       {"peak_gain = 3250.0", "peak_gain = 5000.0", "E-RANGE", "antenna.peak_gain"},
       {"efficiency = 0.714", "efficiency = 0.8", "E-RANGE", "antenna.efficiency"},

@@ -43,15 +43,17 @@ struct Reach {
 };
 
 // PiecePowers::Kind as a real number. `spread_m`: how far a wall's ranges differ over the wedge.
-inline double kind_of(const Reach& reach, double cross_m2, double nearest2_m2, double spread_m) {
+inline double kind_of(const Reach& reach, double cross_m2, double nearest2_m2, double spread_m,
+                      double most_rad) {
   const double c1 = reach.near_cell, c2 = reach.far_cell;
   const double least = c1 < c2 ? c1 : c2, most = c1 < c2 ? c2 : c1;
   const double apart = most - least;
   // The ends of the gate are cut off exactly.
   const double enters = least < 0.0 ? apart : 0.0, leaves = most >= reach.cells ? apart : 0.0;
   // So are pieces close by, where pattern and NRCS differ from one half to the other.
-  const double halves = cross_m2 > kSmallTurn_rad * nearest2_m2 ? apart : 0.0;
-  const double parts = cross_m2 > kMostElevation_rad * nearest2_m2 ? 2.0 : 0.0;
+  const double small_rad = most_rad / 2 < kSmallTurn_rad ? most_rad / 2 : kSmallTurn_rad;
+  const double halves = cross_m2 > small_rad * nearest2_m2 ? apart : 0.0;
+  const double parts = cross_m2 > most_rad * nearest2_m2 ? 2.0 : 0.0;
   const double in_gate = most >= 0.0 && least < reach.cells ? 1.0 : 0.0;
   const double cuts = (apart + reach.turns + enters + leaves + parts) * in_gate;
   const double cut = cuts > 1.0 ? kManyCells : kTwoCells;
@@ -62,8 +64,9 @@ inline double kind_of(const Reach& reach, double cross_m2, double nearest2_m2, d
 }  // namespace
 
 FANBEAM_HOT(void, integrate,
-            (const sensors::RangeGate& gate, const VisiblePieces& pieces, PiecePowers& powers),
-            (gate, pieces, powers)) {
+            (const sensors::RangeGate& gate, double most_rad, const VisiblePieces& pieces,
+             PiecePowers& powers),
+            (gate, most_rad, pieces, powers)) {
   const In near_distance_m = pieces.near_distance_m.data();
   const In near_height_m = pieces.near_height_m.data();
   const In far_distance_m = pieces.far_distance_m.data();
@@ -127,7 +130,7 @@ FANBEAM_HOT(void, integrate,
     const double nearest_m = range1_m < range2_m ? range1_m : range2_m;
     const Reach reach{c1, c2, cells, s1_m * s2_m < 0.0 ? 2.0 : 0.0};
     const double found =
-        kind_of(reach, cross_m2[i], nearest_m * nearest_m, farther_m[i] - nearer_m[i]);
+        kind_of(reach, cross_m2[i], nearest_m * nearest_m, farther_m[i] - nearer_m[i], most_rad);
     kind[i] = static_cast<std::int32_t>(found);
     // What is not plain goes elsewhere later; that in two cells still tells which.
     const double limit = found > kTwoCells ? 0.0 : cells;

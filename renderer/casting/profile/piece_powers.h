@@ -46,7 +46,9 @@ struct SineWeights {
 };
 
 // Cells and integrals.
-void integrate(const sensors::RangeGate& gate, const VisiblePieces& pieces, PiecePowers& powers);
+// `most_rad` of most_elevation_rad().
+void integrate(const sensors::RangeGate& gate, double most_rad, const VisiblePieces& pieces,
+               PiecePowers& powers);
 
 // Pattern (`gain` by the sine of the elevation), NRCS and the radar constant.
 void weigh(const PowerTables& tables, const double* gain, const SineWeights& weights,

@@ -42,12 +42,14 @@ struct VisiblePieces {
 };
 
 // Elevation that one piece may span: pattern, range and, under a tilted antenna, azimuth are those
-// of its middle.
-inline constexpr double kMostElevation_rad = 0.002;
+// of its middle. Of a beam narrower than 7.3 deg a part of its width: on its flanks the pattern bends.
+inline double most_elevation_rad(double half_power_width_rad) {
+  return std::min(0.002, half_power_width_rad / 64.0);
+}
 
 // Into how many parts a piece goes, from its cross product, at least 0, and the square of its nearest
 // range.
-inline int parts_of(double cross_m2, double nearest2_m2, double most_rad = kMostElevation_rad) {
+inline int parts_of(double cross_m2, double nearest2_m2, double most_rad) {
   constexpr double kMostParts = 1000.0;
   const double one_m2 = most_rad * nearest2_m2;  // 0 for a cell that begins at the sensor
   return 1 + static_cast<int>(cross_m2 < kMostParts * one_m2 ? cross_m2 / one_m2 : kMostParts);

@@ -20,10 +20,11 @@ SlicePower::SlicePower(const World& world, const sensors::AntennaFrame& antenna,
       tables_(tables),
       path_loss_(path_loss),
       deposit_(world, antenna, tables),
-      radar_constant_W_m2_(world.sensor.radar_constant_W_m2()) {}
+      radar_constant_W_m2_(world.sensor.radar_constant_W_m2()),
+      most_rad_(most_elevation_rad(world.sensor.antenna.elevation.half_power_width_rad)) {}
 
 void SlicePower::add(const Slice& slice, VisiblePieces& pieces, const SliceBins& bins) {
-  integrate(world_.sensor.range, pieces, powers_);
+  integrate(world_.sensor.range, most_rad_, pieces, powers_);
   cut(slice, pieces, bins);
   finish(slice, pieces, powers_, bins);
   pieces.count = 0;
@@ -31,7 +32,7 @@ void SlicePower::add(const Slice& slice, VisiblePieces& pieces, const SliceBins&
 }
 
 void SlicePower::finish_parts(const Slice& slice, const SliceBins& bins) {
-  integrate(world_.sensor.range, parts_, part_powers_);
+  integrate(world_.sensor.range, most_rad_, parts_, part_powers_);
   std::fill_n(part_powers_.kind.begin(), parts_.count, PiecePowers::plain);
   std::copy_n(part_cell_.begin(), parts_.count, part_powers_.before_cell.begin());
   std::copy_n(part_cell_.begin(), parts_.count, part_powers_.behind_cell.begin());
@@ -98,7 +99,8 @@ void SlicePower::put(const Slice& slice, const Part& part, const SliceBins& bins
   if (!(part.to > part.from) || !some) return;
   const sensors::RangeGate& gate = world_.sensor.range;
   const double cell_from_m = gate.minimum_m + gate.cell_m * part.cell;
-  const int count = parts_of(pieces.cross_m2[i] * (part.to - part.from), cell_from_m * cell_from_m);
+  const int count =
+      parts_of(pieces.cross_m2[i] * (part.to - part.from), cell_from_m * cell_from_m, most_rad_);
   const double share = (part.to - part.from) / count;
   for (int k = 0; k < count; ++k) {
     const double from = part.from + share * k;

@@ -60,6 +60,7 @@ class SlicePower {
   const PathLossTable& path_loss_;
   SliceDeposit deposit_;
   double radar_constant_W_m2_;
+  double most_rad_;  // most_elevation_rad()
   PiecePowers powers_;
   // Parts of pieces over many cells, each in one cell, whatever rounding makes of its ends.
   VisiblePieces parts_;

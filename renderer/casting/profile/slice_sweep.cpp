@@ -275,8 +275,10 @@ void SliceSweep::add_wall(const WallPart& part, double from_m, double top_m,
                           const HeadingRange& range, const terrain::Solid& prism) {
   const double distance_m = part.distance_m;
   const double range_per_distance = distance_m / std::sqrt(distance_m * distance_m + top_m * top_m);
-  const int parts = parts_of(distance_m * (top_m - from_m),
-                             distance_m * distance_m + std::min(from_m * from_m, top_m * top_m));
+  const int parts =
+      parts_of(distance_m * (top_m - from_m),
+               distance_m * distance_m + std::min(from_m * from_m, top_m * top_m),
+               most_elevation_rad(world_.sensor.antenna.elevation.half_power_width_rad));
   const double part_m = (top_m - from_m) / parts;
   for (int k = 0; k < parts; ++k) {
     const int i = next_piece();
