@@ -51,9 +51,9 @@ assert scene.render(0).bscope.shape == (524, 164)
 ")
 run("${CMAKE_COMMAND}" -E env "PYTHONPATH=${prefix}/${PYTHON_DIR}" /usr/bin/python3 look.py)
 # Below /usr/local, the prefix of docs/installing.md, python3 looks there by itself.
-execute_process(COMMAND /usr/bin/python3 -c "import sys; print(*sys.path, sep='\n')" OUTPUT_VARIABLE looked_at
+execute_process(COMMAND /usr/bin/python3 -c "import sys; print(':'.join(sys.path) + ':')" OUTPUT_VARIABLE looked_at
                 COMMAND_ERROR_IS_FATAL ANY)
-if(NOT looked_at MATCHES "/usr/local/${PYTHON_DIR}\n")
+if(NOT looked_at MATCHES "/usr/local/${PYTHON_DIR}:")
   message(FATAL_ERROR "python3 does not look in /usr/local/${PYTHON_DIR}:\n${looked_at}")
 endif()
 
