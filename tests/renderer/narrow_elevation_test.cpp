@@ -31,7 +31,7 @@ sensors::Sensor narrow_sensor(double width_deg) {
 
 // K phi sum of g^2 sigma0 / (R^3 cos psi) dR over the cell, by so many steps that each sees a hundredth of the beam.
 double expected_W(const sensors::Sensor& sensor, int cell) {
-  constexpr int kSteps = 4000;
+  constexpr int kSteps = 400;
   const double step_m = sensor.range.cell_m / kSteps;
   double sum = 0.0;
   for (int i = 0; i < kSteps; ++i) {
