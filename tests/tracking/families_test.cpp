@@ -132,8 +132,8 @@ TEST_CASE("A coded stretch follows six cars of like speeds", "[tracker][statisti
   CHECK(false_tracks / scans <= 0.005);
 }
 
-// Twenty draws each take minutes: MOTA 0.990, 0.989, 0.992 and 0.995, NEES 3.75, 3.44, 3.03 and 4.42, no
-// switch (0.941 and 0.65 before two tones were sought in a peak and directions taken from the triangle).
+// A hundred draws each take minutes (docs/tracking.md): MOTA 0.990, 0.989, 0.992 and 0.995, NEES 4.02, 3.80, 3.23
+// and 4.49, no switch (0.941 and 0.65 before two tones were sought in a peak and directions taken from the triangle).
 TEST_CASE("From samples, the families keep their names", "[sampled][statistics]") {
   for (const auto& [name, runs] :
        {std::pair{"side by side", 6}, {"braking", 3}, {"stop and go", 2}, {"overtaking", 3}}) {
