@@ -42,8 +42,7 @@ StudyPart study_families(const core::HighwayRadar& radar, const TrackSettings& s
       settings.family_draws, sampled ? " from samples" : "", band.low, band.high);
   Plot mota, nees;
   mota.title = what + ": MOTA of each draw";
-  nees.title = fmt::format(
-      "{}: normalised error squared of each draw, {} where told errors are true", what, states);
+  nees.title = fmt::format("{}: NEES of each draw, {} where told errors are true", what, states);
   mota.x = nees.x = {"draws (%)", false, 0.0, 100.0};
   mota.y = {"MOTA", false, {}, 1.0};
   nees.y = {fmt::format("NEES of {} states", states), true, 1.0, 20.0};
