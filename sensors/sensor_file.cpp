@@ -135,7 +135,8 @@ void check_columns(ConfigTable table, const Scan& scan, const BeamCut& beam) {
                       " deg, whose pictures err by more than their estimates say");
 }
 
-// What the beam reaches on both sides of the field of view is seen in columns as well.
+// What the beam reaches on both sides of the field of view is seen in columns as well. Four times the largest picture
+// is half a gigabyte of sums.
 void check_margin(ConfigTable table, const Sensor& sensor) {
   const double columns = 2.0 * reach_rad(sensor.antenna.azimuth) / sensor.scan.column_width_rad() +
                          sensor.scan.columns;

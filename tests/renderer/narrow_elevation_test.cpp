@@ -87,8 +87,9 @@ TEST_CASE("Ground in a narrow elevation beam has its power in every cell, by bot
   INFO(slices.cells << " cells; slices " << slices.largest_dB << " dB, in all " << slices.total_dB
                     << "; rays " << rays.largest_dB << ", " << rays.total_dB);
   CHECK(slices.cells >= 2);
-  CHECK(slices.largest_dB < 0.05);
-  CHECK(std::abs(slices.total_dB) < 0.01);
-  CHECK(rays.largest_dB < 0.5);
-  CHECK(std::abs(rays.total_dB) < 0.05);
+  // Measured: 0.0052 and 0.022 dB at most, of the widest.
+  CHECK(slices.largest_dB < 0.01);
+  CHECK(std::abs(slices.total_dB) < 1e-4);
+  CHECK(rays.largest_dB < 0.05);
+  CHECK(std::abs(rays.total_dB) < 0.005);
 }
