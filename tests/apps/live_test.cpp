@@ -13,6 +13,7 @@
 #include "core/files.h"
 #include "tests/apps/child.h"
 #include "tests/apps/program.h"
+#include "tests/live/loopback.h"
 #include "tests/scenes/scene_folder.h"
 
 using namespace fanbeam;
@@ -200,12 +201,7 @@ TEST_CASE("Lockstep writes the same raw pictures every time, and a recording the
 // The display hid the noise, and it was left out of the watts too: cells in shadow had none.
 TEST_CASE("Radar video in watts holds the receiver's noise, whatever the display shows", "[live]") {
   const int ear = ::socket(AF_INET, SOCK_DGRAM, 0);
-  sockaddr_in at{};
-  at.sin_family = AF_INET;
-  at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof at;
-  REQUIRE(::bind(ear, reinterpret_cast<sockaddr*>(&at), size) == 0);
-  REQUIRE(::getsockname(ear, reinterpret_cast<sockaddr*>(&at), &size) == 0);
+  const sockaddr_in at = tests::bound_to_loopback(ear);
   const TemporaryFolder folder;
   const auto record = folder.write(
       "flight.jsonl",
@@ -318,13 +314,8 @@ TEST_CASE("A page's port that somebody has leaves files as they are", "[live]") 
   const std::string film = (folder.path() / "film.raw").string();
   const std::string record = folder.write("flight.jsonl", "kept").string();
   const int other = ::socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in at{};
-  at.sin_family = AF_INET;
-  at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof at;
-  REQUIRE(::bind(other, reinterpret_cast<sockaddr*>(&at), size) == 0);
+  const sockaddr_in at = tests::bound_to_loopback(other);
   REQUIRE(::listen(other, 1) == 0);
-  REQUIRE(::getsockname(other, reinterpret_cast<sockaddr*>(&at), &size) == 0);
   const Result taken = run_fanbeam("live flat-grass --http " + std::to_string(ntohs(at.sin_port)) +
                                    " --frames 1 --to raw-bscope:" + film + " --record " + record);
   CHECK(taken.exit_code == 4);
@@ -336,7 +327,7 @@ TEST_CASE("A page's port that somebody has leaves files as they are", "[live]") 
         std::string("--to raw-cscope:").append(film)}) {
     INFO(more);
     const int datagrams = ::socket(AF_INET, SOCK_DGRAM, 0);
-    REQUIRE(::bind(datagrams, reinterpret_cast<sockaddr*>(&at), sizeof at) == 0);
+    REQUIRE(::bind(datagrams, reinterpret_cast<const sockaddr*>(&at), sizeof at) == 0);
     const Result refused =
         run_fanbeam("live flat-grass --http 0 --frames 1 --to raw-bscope:" + film + " --record " +
                     record + " " + more);
@@ -431,19 +422,13 @@ TEST_CASE("What live tells waits for no reader and needs none", "[live]") {
 
 TEST_CASE("A datagram of no use that cannot be told does not end live", "[live]") {
   const int wire = ::socket(AF_INET, SOCK_DGRAM, 0);
-  sockaddr_in at{};
-  at.sin_family = AF_INET;
-  at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof at;
-  // A port that is free: left to live.
   const int other = ::socket(AF_INET, SOCK_DGRAM, 0);
-  REQUIRE(::bind(other, reinterpret_cast<sockaddr*>(&at), size) == 0);
-  REQUIRE(::getsockname(other, reinterpret_cast<sockaddr*>(&at), &size) == 0);
-  ::close(other);
+  const sockaddr_in at = tests::bound_to_loopback(other);
+  ::close(other);  // left to live
   std::atomic<bool> ended{false};
   std::thread sender([&] {
     for (; !ended; wait_ms(50.0))
-      ::sendto(wire, "garbage", 7, MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&at), size);
+      ::sendto(wire, "garbage", 7, MSG_DONTWAIT, reinterpret_cast<const sockaddr*>(&at), sizeof at);
   });
   const Result flown =
       run_shell("'" FANBEAM_BINARY_DIR

@@ -14,6 +14,7 @@
 #include "core/errors.h"
 #include "core/stop.h"
 #include "core/units.h"
+#include "tests/live/loopback.h"
 #include "tests/sensors/shipped_sensor.h"
 
 using namespace fanbeam;
@@ -24,13 +25,7 @@ namespace {
 class Ear {
  public:
   Ear() : socket_(::socket(AF_INET, SOCK_DGRAM, 0)) {
-    sockaddr_in at{};
-    at.sin_family = AF_INET;
-    at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    REQUIRE(::bind(socket_, reinterpret_cast<sockaddr*>(&at), sizeof at) == 0);
-    socklen_t size = sizeof at;
-    REQUIRE(::getsockname(socket_, reinterpret_cast<sockaddr*>(&at), &size) == 0);
-    port = ntohs(at.sin_port);
+    port = ntohs(tests::bound_to_loopback(socket_).sin_port);
     const timeval patience{2, 0};
     ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
   }

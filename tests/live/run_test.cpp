@@ -12,6 +12,7 @@
 
 #include "feeds/xplane.h"
 #include "tests/live/live_scene.h"
+#include "tests/live/loopback.h"
 
 using namespace fanbeam;
 
@@ -57,13 +58,7 @@ namespace {
 class AskedSimulator {
  public:
   AskedSimulator() {
-    sockaddr_in at{};
-    at.sin_family = AF_INET;
-    at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof at;
-    REQUIRE(::bind(wire_, reinterpret_cast<sockaddr*>(&at), size) == 0);
-    REQUIRE(::getsockname(wire_, reinterpret_cast<sockaddr*>(&at), &size) == 0);
-    port_ = ntohs(at.sin_port);
+    port_ = ntohs(tests::bound_to_loopback(wire_).sin_port);
     const timeval patience{2, 0};
     REQUIRE(::setsockopt(wire_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience) == 0);
   }
