@@ -27,7 +27,10 @@ std::string TargetRow::markdown() const {
   const char* verdict = "missed";
   if (verdict_ != Verdict::missed)
     verdict = verdict_ == Verdict::aim_met && !aim_.empty() ? "aim met" : "must met";
-  return fmt::format("| {} | {} | {} | {} | {} |\n", what_, must_, aim_.empty() ? "-" : aim_,
+  const auto or_dash = [](const std::string& text) {
+    return text.empty() ? std::string("-") : text;
+  };
+  return fmt::format("| {} | {} | {} | {} | {} |\n", what_, or_dash(must_), or_dash(aim_),
                      measured_, verdict);
 }
 

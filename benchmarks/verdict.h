@@ -15,7 +15,7 @@ struct Target {
 // Values are judged as they are added; the worst decides.
 class TargetRow {
  public:
-  // Empty `aim`: there is none.
+  // Empty: there is none.
   TargetRow(std::string what, std::string must, std::string aim = "");
 
   // Text of one measured figure, for the column that lists them.
