@@ -52,16 +52,39 @@ void deposit_wall(const WallSpread& spread, double power_W_per_rad, double* bins
 
 }  // namespace
 
-void SliceDeposit::add(const VisiblePieces& pieces, const Slice& slice, PiecePowers& powers,
-                       const SliceBins& bins) const {
+void SliceDeposit::add(const VisiblePieces& pieces, const Slice& slice, const SineWeights& weights,
+                       PiecePowers& powers, const SliceBins& bins) const {
   if (bins.across)
-    add_across(pieces, slice, powers, bins);
+    add_across(pieces, slice, weights, powers, bins);
   else
-    add_in_column(pieces, powers, bins);
+    add_in_column(pieces, weights, powers, bins);
 }
 
-void SliceDeposit::add_in_column(const VisiblePieces& pieces, PiecePowers& powers,
-                                 const SliceBins& bins) const {
+// Of the power times R^3 over the elevations of piece i, from its far end, which is the higher one, to
+// the near one: dP/de R^3 goes with g^2 [sigma0 / sin(psi)] R (slice_power.h), and evenly from end to
+// end.
+double SliceDeposit::tilt_of(const VisiblePieces& pieces, const SineWeights& weights,
+                             const PiecePowers& powers, int i) const {
+  const double* const nrcs = tables_.nrcs() + pieces.material[i] * NrcsTable::kEntries;
+  const double q_m = pieces.facet_m[i] / std::sqrt(pieces.facet_d2[i]);
+  const bool cone = world_.sensor.scan.surface == sensors::ScanSurface::cone;
+  const auto density = [&](double distance_m, double height_m, double range_m) {
+    double share = 0.0;
+    const double* const value = nrcs + NrcsTable::index_of(std::max(q_m / range_m, 0.0), share);
+    const double gain =
+        cone ? 1.0
+             : tables_.gain_at((weights.along * distance_m + weights.up * height_m) / range_m);
+    return gain * (value[0] + share * (value[1] - value[0])) * range_m;
+  };
+  const double near =
+      density(pieces.near_distance_m[i], pieces.near_height_m[i], powers.near_range_m[i]);
+  const double far =
+      density(pieces.far_distance_m[i], pieces.far_height_m[i], powers.far_range_m[i]);
+  return near + far > 0.0 ? (near - far) / (near + far) : 0.0;
+}
+
+void SliceDeposit::add_in_column(const VisiblePieces& pieces, const SineWeights& weights,
+                                 PiecePowers& powers, const SliceBins& bins) const {
   double* range_bins = bins.range_W_per_rad;
   double* row_bins = bins.elevation_W_m3_per_rad;
   if (row_bins != nullptr)
@@ -78,11 +101,11 @@ void SliceDeposit::add_in_column(const VisiblePieces& pieces, PiecePowers& power
   }
   if (most < PiecePowers::wedge) return;
   for (int i = 0; i < powers.count; ++i)
-    if (powers.kind[i] >= PiecePowers::wedge) add_special(pieces, powers, i, bins);
+    if (powers.kind[i] >= PiecePowers::wedge) add_special(pieces, weights, powers, i, bins);
 }
 
-void SliceDeposit::add_special(const VisiblePieces& pieces, const PiecePowers& powers, int i,
-                               const SliceBins& bins) const {
+void SliceDeposit::add_special(const VisiblePieces& pieces, const SineWeights& weights,
+                               const PiecePowers& powers, int i, const SliceBins& bins) const {
   const sensors::RangeGate& gate = world_.sensor.range;
   const double power_W_per_rad = powers.before_W_per_rad[i] + powers.behind_W_per_rad[i];
   if (powers.kind[i] == PiecePowers::wedge) {
@@ -92,8 +115,9 @@ void SliceDeposit::add_special(const VisiblePieces& pieces, const PiecePowers& p
   }
   if (bins.elevation_W_m3_per_rad == nullptr) return;
   const double range_m = powers.range_m[i];
-  deposit(powers.high_row[i], powers.low_row[i], power_W_per_rad * range_m * range_m * range_m,
-          bins.elevation_W_m3_per_rad + 1, world_.sensor.display.cscope_rows);
+  deposit_tilted(powers.high_row[i], powers.low_row[i],
+                 power_W_per_rad * range_m * range_m * range_m, tilt_of(pieces, weights, powers, i),
+                 bins.elevation_W_m3_per_rad + 1, world_.sensor.display.cscope_rows);
 }
 
 // The row of a point of the slice in a cone scan, whose elevation is atan2(up, forward).
@@ -127,7 +151,8 @@ SliceDeposit::Sweep SliceDeposit::sweep_of(const Slice& slice, const PiecePowers
 }
 
 void SliceDeposit::add_across(const VisiblePieces& pieces, const Slice& slice,
-                              const PiecePowers& powers, const SliceBins& bins) const {
+                              const SineWeights& weights, const PiecePowers& powers,
+                              const SliceBins& bins) const {
   const bool cone = world_.sensor.scan.surface == sensors::ScanSurface::cone;
   for (int i = 0; i < powers.count; ++i) {
     if (powers.kind[i] == PiecePowers::two_cells || powers.kind[i] == PiecePowers::many_cells)
@@ -141,6 +166,7 @@ void SliceDeposit::add_across(const VisiblePieces& pieces, const Slice& slice,
       const double far_row = cone_row(slice, pieces.far_distance_m[i], pieces.far_height_m[i]);
       rows = {std::min(near_row, far_row), std::max(near_row, far_row)};
     }
+    if (rows.low - rows.high > 1.0) rows.tilt = tilt_of(pieces, weights, powers, i);
     const int first = std::max(static_cast<int>(std::floor(sweep.from)), 0);
     const int last = std::min(static_cast<int>(std::floor(sweep.to)), bins.sub_columns - 1);
     for (int sub = first; sub <= last; ++sub) {
@@ -178,8 +204,9 @@ void SliceDeposit::add_to_sub_column(const VisiblePieces& pieces, const PiecePow
   if (bins.elevation_W_m3_per_rad == nullptr) return;
   const int row_count = world_.sensor.display.cscope_rows;
   const double range_m = powers.range_m[i];
-  deposit(rows.high, rows.low, power_W_per_rad * range_m * range_m * range_m,
-          bins.elevation_W_m3_per_rad + column * static_cast<std::size_t>(row_count), row_count);
+  deposit_tilted(rows.high, rows.low, power_W_per_rad * range_m * range_m * range_m, rows.tilt,
+                 bins.elevation_W_m3_per_rad + column * static_cast<std::size_t>(row_count),
+                 row_count);
 }
 
 }  // namespace fanbeam::renderer

@@ -31,13 +31,16 @@ class SliceDeposit {
   SliceDeposit(const World& world, const sensors::AntennaFrame& antenna, const PowerTables& tables)
       : world_(world), antenna_(antenna), tables_(tables) {}
 
-  void add(const VisiblePieces& pieces, const Slice& slice, PiecePowers& powers,
-           const SliceBins& bins) const;
+  void add(const VisiblePieces& pieces, const Slice& slice, const SineWeights& weights,
+           PiecePowers& powers, const SliceBins& bins) const;
 
  private:
-  void add_in_column(const VisiblePieces& pieces, PiecePowers& powers, const SliceBins& bins) const;
-  void add_special(const VisiblePieces& pieces, const PiecePowers& powers, int i,
-                   const SliceBins& bins) const;
+  void add_in_column(const VisiblePieces& pieces, const SineWeights& weights, PiecePowers& powers,
+                     const SliceBins& bins) const;
+  void add_special(const VisiblePieces& pieces, const SineWeights& weights,
+                   const PiecePowers& powers, int i, const SliceBins& bins) const;
+  double tilt_of(const VisiblePieces& pieces, const SineWeights& weights, const PiecePowers& powers,
+                 int i) const;
 
   // From and to in sub-columns; none where the two are equal.
   struct Sweep {
@@ -48,9 +51,10 @@ class SliceDeposit {
   // In rows of the picture.
   struct Rows {
     double high, low;
+    double tilt = 0.0;  // of deposit_tilted()
   };
-  void add_across(const VisiblePieces& pieces, const Slice& slice, const PiecePowers& powers,
-                  const SliceBins& bins) const;
+  void add_across(const VisiblePieces& pieces, const Slice& slice, const SineWeights& weights,
+                  const PiecePowers& powers, const SliceBins& bins) const;
   void add_to_sub_column(const VisiblePieces& pieces, const PiecePowers& powers, int i,
                          const Rows& rows, double share, int sub, const SliceBins& bins) const;
   Sweep sweep_of(const Slice& slice, const PiecePowers& powers, int i, const SliceBins& bins) const;

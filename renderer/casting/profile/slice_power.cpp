@@ -52,7 +52,7 @@ void SlicePower::finish(const Slice& slice, const VisiblePieces& pieces, PiecePo
   if (!path_loss_.clear()) lose_on_path(path_loss_, antenna_.position_m.z, powers);
   if (world_.rain_cells) lose_in_rain_cells(slice, powers);
   if (bins.elevation_W_m3_per_rad != nullptr) place_in_rows(tables_, weights, pieces, powers);
-  deposit_.add(pieces, slice, powers, bins);
+  deposit_.add(pieces, slice, weights, powers, bins);
 }
 
 void SlicePower::lose_in_rain_cells(const Slice& slice, PiecePowers& powers) const {

@@ -12,8 +12,8 @@
 // around the middle m of a cut of half-length h, with the Gegenbauer polynomials C_2k^(2)(s_m/R_m)
 // (Abramowitz & Stegun, Handbook of Mathematical Functions, 1964, 22.9.3): relative error 12 x^3,
 // 3e-10 for a cell of 6.67 m at 200 m. Pattern, NRCS and loss are those at the middle of the cut.
-// Elevation rows: the power of a cut times its middle R^3, spread evenly over the elevations
-// between its ends.
+// Elevation rows: the power of a cut times its middle R^3, over the elevations between its ends: evenly
+// over two rows at most, else rising or falling evenly from what one end sends to what the other does.
 //
 // A piece that passes one border between cells is integrated on both sides of it with the pattern,
 // NRCS and loss of its own middle; longer ones are cut into pieces of their own.
