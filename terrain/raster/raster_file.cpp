@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -19,6 +20,13 @@ namespace fanbeam::terrain {
 namespace {
 
 constexpr std::array<const char*, 5> kDrivers = {"GTiff", "DTED", "SRTMHGT", "AAIGrid", nullptr};
+constexpr std::uint64_t kLargestSideText_bytes = 1 << 20;
+
+bool is_metre(const std::string& unit) {
+  constexpr std::array<const char*, 6> kMetres = {"", "m", "metre", "metres", "meter", "meters"};
+  return std::any_of(kMetres.begin(), kMetres.end(),
+                     [&](const char* metre) { return EQUAL(unit.c_str(), metre); });
+}
 
 class BandReader {
  public:
@@ -57,6 +65,7 @@ class BandReader {
   void check_shape() const;
   void check_size(GDALRasterBand& band) const;
   void check_kind(GDALRasterBand& band) const;
+  std::string unit_of(GDALRasterBand& band) const;
   PixelMap make_map() const;
   std::vector<float> read_samples(GDALRasterBand& band) const;
   std::vector<std::uint8_t> read_mask(GDALRasterBand& band) const;
@@ -83,19 +92,20 @@ void BandReader::check_side_files() const {
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
+    if (name == path.filename()) continue;  // may be a link, where its caller lets it
     const bool is_mask = EQUAL(name.c_str(), (path.filename().string() + ".msk").c_str());
     if (!is_mask && !name.starts_with(start)) continue;
     if (!core::lies_inside(folder, entry.path()))
       refuse(core::ErrorClass::path, "side file", name,
              "files beside the raster that are no links out of its folder");
-    if (name.ends_with(".prj") || name.ends_with(".aux.xml")) check_side_text(entry.path());
+    const CPLString small = CPLString(name).tolower();  // GDAL takes "dem.PRJ" as well
+    if (small.ends_with(".prj") || small.ends_with(".aux.xml")) check_side_text(entry.path());
     if (is_mask) check_mask_file(entry.path());
   }
 }
 
 void BandReader::check_side_text(const std::filesystem::path& path) const {
-  constexpr std::uint64_t kLargest_bytes = 1 << 20;
-  const std::string text = core::read_file(path, kLargest_bytes);
+  const std::string text = core::read_file(path, kLargestSideText_bytes);
   // XML may write letters as numbers, which nobody needs here.
   if (names_files(text) || text.find("&#") != std::string::npos)
     refuse(core::ErrorClass::path, "side file", path.filename().string(),
@@ -138,11 +148,8 @@ void BandReader::check_kind(GDALRasterBand& band) const {
   if (GDALDataTypeIsComplex(band.GetRasterDataType()))
     refuse(core::ErrorClass::unsupported, "sample type",
            GDALGetDataTypeName(band.GetRasterDataType()), "real numbers");
-  constexpr std::array<std::string_view, 6> kMetres = {"",       "m",     "metre",
-                                                       "metres", "meter", "meters"};
-  const std::string unit = band.GetUnitType();
-  if (std::find(kMetres.begin(), kMetres.end(), unit) == kMetres.end())
-    refuse(core::ErrorClass::unsupported, "unit", unit, "metres");
+  const std::string unit = unit_of(band);
+  if (!is_metre(unit)) refuse(core::ErrorClass::unsupported, "unit", unit, "metres");
   // Blocks that a writer never wrote read as zeros unless the file says what stands for "no value".
   int has_nodata = 0;
   band.GetNoDataValue(&has_nodata);
@@ -150,6 +157,26 @@ void BandReader::check_kind(GDALRasterBand& band) const {
       band.GetDataCoverageStatus(0, 0, band.GetXSize(), band.GetYSize(), 0, nullptr);
   if (has_nodata == 0 && (coverage & GDAL_DATA_COVERAGE_STATUS_EMPTY) != 0)
     refuse(core::ErrorClass::parse, "samples", "blocks that were never written", "a complete file");
+}
+
+// Of the heights, empty where nothing tells it. GDAL gives bands of a GeoTIFF the unit of its system; those
+// of an ESRI grid get none, neither from its system nor from the "Zunits" of an older .prj.
+std::string BandReader::unit_of(GDALRasterBand& band) const {
+  const std::string own = band.GetUnitType();
+  if (!own.empty()) return own;
+  const OGRSpatialReference* crs = dataset_->GetSpatialRef();
+  const char* name = nullptr;
+  if (crs != nullptr && crs->IsCompound() != 0 &&
+      std::abs(crs->GetTargetLinearUnits("COMPD_CS|VERT_CS", &name) - 1.0) > 1e-9)
+    return name;
+  const CPLStringList files(dataset_->GetFileList());
+  for (int i = 0; i < files.size(); ++i) {
+    if (!EQUAL(CPLGetExtension(files[i]), "prj")) continue;
+    std::istringstream words(core::read_file(files[i], kLargestSideText_bytes));
+    for (std::string word; words >> word;)
+      if (EQUAL(word.c_str(), "Zunits") && words >> word && !EQUAL(word.c_str(), "no")) return word;
+  }
+  return "";
 }
 
 PixelMap BandReader::make_map() const {

@@ -43,10 +43,11 @@ struct RasterFacts {
 inline constexpr std::int64_t kMostSamples = 100'000'000;
 
 // Throws InputError: E-IO (missing or unreadable file), E-PATH (a file of the same name beside it,
-// such as its .prj, is a symbolic link out of the folder, or a mask that is no TIFF), E-PARSE (not one
-// of the formats, damaged, or shorter than it claims, a mask of another size), E-LIMIT (more than
-// kMostSamples, found before anything is allocated), E-REF (no georeference), E-UNSUPPORTED (more than
-// one band, complex numbers, heights not in metres, or as PixelMap).
+// such as its .prj, is a symbolic link out of the folder, which the raster itself may be, or a mask that
+// is no TIFF), E-PARSE (not one of the formats, damaged, or shorter than it claims, a mask of another
+// size), E-LIMIT (more than kMostSamples, found before anything is allocated), E-REF (no georeference),
+// E-UNSUPPORTED (more than one band, complex numbers, or as PixelMap; heights not in metres, as the band,
+// the vertical part of its system or the Zunits of an older .prj say).
 RasterBand read_raster_band(const std::filesystem::path& path);
 
 // SRTM .hgt and DTED always count from EGM96; other formats where their system has a vertical part.

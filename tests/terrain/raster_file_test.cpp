@@ -144,6 +144,43 @@ TEST_CASE("A picture of three bands is no terrain", "[raster_file]") {
              Contains("E-UNSUPPORTED bands = 3"));
 }
 
+// GDAL hands the unit of a GeoTIFF on, that of an ESRI grid not: feet were read as metres.
+TEST_CASE("Heights in feet are refused wherever a raster says so, metres in any spelling are read",
+          "[raster_file]") {
+  const TemporaryFolder folder;
+  AsciiGrid grid{4, 4, 11.0, 47.0, 0.01};
+  const auto told = [&](const std::string& system) {
+    grid.wkt = system;
+    return refusal_of(grid.write(folder, "dem", [](int, int) { return std::string("5669.5"); }));
+  };
+  const auto esri = [](const std::string& unit) {
+    return R"(GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",)"
+           R"(SPHEROID["WGS_1984",6378137.0,298.257223563]],)"
+           R"(PRIMEM["Greenwich",0.0],UNIT["Degree",0.0174532925199433]],)"
+           R"(VERTCS["NAVD88",VDATUM["North_American_Vertical_Datum_1988"],)"
+           R"(PARAMETER["Vertical_Shift",0.0],PARAMETER["Direction",1.0],UNIT[)" +
+           unit + "]]";
+  };
+  CHECK_THAT(told(esri("\"Foot\",0.3048")), Contains("E-UNSUPPORTED unit") && Contains("metres"));
+  CHECK_THAT(told(esri("\"Foot_US\",0.3048006096012192")), Contains("E-UNSUPPORTED unit"));
+  CHECK(told(esri("\"Meter\",1.0")) == "accepted");
+  const auto older = [](const std::string& zunits) {
+    return "Projection GEOGRAPHIC\nDatum WGS84\nSpheroid WGS84\nUnits DD\n" + zunits +
+           "\nParameters\n";
+  };
+  CHECK_THAT(told(older("Zunits    FEET")), Contains("E-UNSUPPORTED unit = FEET"));
+  for (const char* zunits : {"Zunits    METERS", "Zunits    NO", ""})
+    CHECK(told(older(zunits)) == "accepted");
+  // The band's own unit, which GDAL keeps in a file beside the grid, counts before the system's.
+  const auto of_band = [&](const std::string& unit) {
+    folder.write("dem.asc.aux.xml", "<PAMDataset><PAMRasterBand band=\"1\"><UnitType>" + unit +
+                                        "</UnitType></PAMRasterBand></PAMDataset>");
+    return told(tests::kWgs84Wkt);
+  };
+  for (const char* unit : {"Metres", "METERS", "Meter", "M"}) CHECK(of_band(unit) == "accepted");
+  CHECK_THAT(of_band("Feet"), Contains("E-UNSUPPORTED unit = Feet"));
+}
+
 TEST_CASE("Rasters that cannot be placed on the Earth are refused", "[raster_file]") {
   const TemporaryFolder folder;
   const auto ten = [](int, int) { return std::string("10"); };
@@ -211,6 +248,20 @@ TEST_CASE("F05 a side file that is a link out of the folder is never opened", "[
   folder.write("real.prj", tests::kWgs84Wkt);
   std::filesystem::create_symlink("real.prj", folder.path() / "dem.prj");
   CHECK(refusal_of(file) == "accepted");
+  // The raster itself is no side file: who may read it is its caller's matter.
+  const TemporaryFolder links;
+  std::filesystem::create_symlink(outside.write("tiny.tif", tiny_geotiff(true, 1)),
+                                  links.path() / "link.tif");
+  CHECK(refusal_of(links.path() / "link.tif") == "accepted");
+}
+
+TEST_CASE("F05 a .PRJ beside a grid is looked at like a .prj", "[raster_file]") {
+  const TemporaryFolder folder;
+  AsciiGrid grid{4, 4, 11.0, 47.0, 0.01};
+  grid.wkt = "";
+  const auto file = grid.write(folder, "dem", [](int, int) { return std::string("10"); });
+  folder.write("dem.PRJ", "+proj=longlat +nadgrids=grid.gsb");
+  CHECK_THAT(refusal_of(file), Contains("E-PATH side file = dem.PRJ"));
 }
 
 TEST_CASE("A GeoTIFF cut anywhere is refused", "[raster_file]") {
