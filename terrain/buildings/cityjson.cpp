@@ -24,6 +24,7 @@ using core::JsonNode;
 constexpr core::JsonLimits kLimits{64, kMostCityValues};
 constexpr core::NumberRange kCoordinate{-1e12, 1e12};
 constexpr int kMostAncestors = 8;
+constexpr std::size_t kMostParents = 64;  // of one object, that are looked at
 constexpr std::size_t kMostSurfaceKinds = 64;
 // Of a face without semantics: cosine of 60 deg, between its normal and the vertical.
 constexpr double kWallSlope = 0.5;
@@ -60,10 +61,17 @@ class CityReader {
   std::optional<int> epsg();
   void read_vertices(int epsg);
   void read_objects();
-  // The object at the top of those that this one is a part of; its own name after an error.
-  std::string building_of(const std::string& id) const;
-  // The geometry of the highest level of detail that is read; one not present where there is none.
-  std::optional<JsonNode> best_geometry(const JsonNode& object) const;
+  // An object, the building that it belongs to, and the geometries of its highest level of detail that is
+  // read: several of one level are one shape (CityJSON has no MultiGeometry).
+  struct Piece {
+    std::string id, building;
+    double lod = 0.0;
+    std::vector<JsonNode> geometries;
+  };
+  // The object at the top of those that this one is a part of, groups aside; its own name after an error.
+  // Those between learn that parts of that level are under them; 0 for none.
+  std::string building_of(const std::string& id, int part_level);
+  Piece best_geometries(const JsonNode& object) const;
   void read_geometry(const JsonNode& geometry, CityBuilding& building);
   void read_faces(const JsonNode& boundary, const JsonNode& values, int levels,
                   const std::vector<std::string>& semantics, CityBuilding& building);
@@ -86,9 +94,10 @@ class CityReader {
   // Which building met a vertex last, and the place it has there.
   std::vector<std::pair<const CityBuilding*, std::uint32_t>> met_;
   std::map<std::string, CityBuilding> buildings_;
+  std::map<std::string, int> finest_part_;  // level of the parts under an object
   std::vector<std::string> surfaces_;
   std::map<std::string, std::size_t> other_types_;
-  std::size_t without_geometry_ = 0, degenerate_ = 0, not_triangulated_ = 0;
+  std::size_t without_geometry_ = 0, coarser_ = 0, degenerate_ = 0, not_triangulated_ = 0;
   bool off_earth_ = false;
 };
 
@@ -161,6 +170,7 @@ void CityReader::read_vertices(int epsg) {
 void CityReader::read_objects() {
   const JsonNode objects = root_.required("CityObjects");
   if (objects.present() && !objects.is_object()) objects.error(ErrorClass::parse, "an object");
+  std::vector<Piece> pieces;
   for (const std::string& id : objects.keys()) {
     if (errors_.is_full()) return;
     const JsonNode object = objects.member(id);
@@ -169,38 +179,56 @@ void CityReader::read_objects() {
       if (!type.empty()) ++other_types_[core::printable_text(type.substr(0, 40))];
       continue;
     }
-    const std::optional<JsonNode> geometry = best_geometry(object);
-    if (geometry) {
-      const std::string top = building_of(id);
-      CityBuilding& building = buildings_[top];
-      building.id = core::printable_text(top.substr(0, 80));
-      read_geometry(*geometry, building);
+    Piece piece = best_geometries(object);
+    if (!piece.geometries.empty()) {
+      piece.id = id;
+      piece.building = building_of(id, type.ends_with("Part") ? static_cast<int>(piece.lod) : 0);
+      pieces.push_back(std::move(piece));
     } else if (object.member("children").elements() == 0) {
       ++without_geometry_;
     }
   }
+  for (const Piece& piece : pieces) {
+    if (errors_.is_full()) return;
+    const auto parts = finest_part_.find(piece.id);
+    if (parts != finest_part_.end() && parts->second > static_cast<int>(piece.lod)) {
+      ++coarser_;  // would hide them
+      continue;
+    }
+    CityBuilding& building = buildings_[piece.building];
+    building.id = core::printable_text(piece.building.substr(0, 80));
+    for (const JsonNode& geometry : piece.geometries) read_geometry(geometry, building);
+  }
 }
 
-std::string CityReader::building_of(const std::string& id) const {
+std::string CityReader::building_of(const std::string& id, int part_level) {
   const JsonNode objects = root_.member("CityObjects");
   std::string top = id;
   for (int step = 0;; ++step) {
     const JsonNode parents = objects.member(top).member("parents");
-    if (parents.elements() == 0) return top;
-    const std::string parent = parents.element(0).text().value_or("");
-    if (parent.empty() || step == kMostAncestors || !objects.member(parent).present()) {
-      parents.element(0).error(
-          ErrorClass::ref, step == kMostAncestors ? "no ring of parents" : "an object of the file");
-      return id;
+    std::string above;
+    for (std::size_t i = 0; i < std::min(parents.elements(), kMostParents); ++i) {
+      const std::string name = parents.element(i).text().value_or("");
+      const JsonNode parent = objects.member(name);
+      if (name.empty() || step == kMostAncestors || !parent.present()) {
+        parents.element(i).error(ErrorClass::ref, step == kMostAncestors ? "no ring of parents"
+                                                                         : "an object of the file");
+        return id;
+      }
+      if (!is_one_of(kBuilt, parent.member("type").text().value_or(""))) continue;
+      above = name;
+      break;
     }
-    top = parent;
+    if (above.empty()) return top;
+    int& finest = finest_part_[above];
+    finest = std::max(finest, part_level);
+    top = above;
   }
 }
 
-std::optional<JsonNode> CityReader::best_geometry(const JsonNode& object) const {
+CityReader::Piece CityReader::best_geometries(const JsonNode& object) const {
   const JsonNode list = object.member("geometry");
-  std::optional<JsonNode> best;
-  double best_lod = 0.0;
+  Piece best;
   const std::size_t count = list.size(kMostCityValues);
   for (std::size_t i = 0; i < count; ++i) {
     const JsonNode geometry = list.element(i);
@@ -208,11 +236,12 @@ std::optional<JsonNode> CityReader::best_geometry(const JsonNode& object) const 
     if (!levels_around_faces(type)) continue;
     const JsonNode lod = geometry.required("lod");
     const core::ParsedNumber level = core::parse_number(lod.text().value_or("0"));
-    if (level.error != core::NumberError::none)
+    if (level.error != core::NumberError::none) {
       lod.error(ErrorClass::parse, "\"1\" to \"3.3\"");
-    else if (level.value >= 1.0 && level.value < 4.0 && level.value > best_lod) {
-      best = geometry;
-      best_lod = level.value;
+    } else if (level.value >= 1.0 && level.value < 4.0 && level.value >= best.lod) {
+      if (level.value > best.lod) best.geometries.clear();
+      best.lod = level.value;
+      best.geometries.push_back(geometry);
     }
   }
   return best;
@@ -341,6 +370,7 @@ void CityReader::report_counts() {
     if (count > 0) problems_.warning(name, place_, what, std::to_string(count), why);
   };
   report("SKIPPED", without_geometry_, "buildings without surfaces of LoD 1 to 3", "left out");
+  report("SKIPPED", coarser_, "buildings coarser than their parts", "their parts alone are read");
   report("SKIPPED", not_triangulated_, "faces that cross themselves", "left out");
   report("DEGENERATE", degenerate_, "faces without area", "left out");
 }

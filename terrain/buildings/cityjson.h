@@ -2,11 +2,13 @@
 // semantic surface that each of them belongs to.
 //
 // Read are Building, BuildingPart, BuildingInstallation, Bridge, BridgePart and their like; of each the
-// geometry of the highest LoD from 1 to 3: Solid (its outer shell), MultiSurface, CompositeSurface,
-// MultiSolid, CompositeSolid. Parts belong to the building that they hang under. Left out: grounds and
-// closures, rooms inside, textures, materials, templates (GeometryInstance), other objects of the city
-// (roads, land, water, plants, tunnels, the units of a building, whose walls its own hold), which are counted in a warning. A surface without semantics is a roof
-// where it looks up, a wall where it stands within 30 deg of the vertical, a ground where it looks down.
+// geometries of the highest LoD from 1 to 3: Solid (its outer shell), MultiSurface, CompositeSurface,
+// MultiSolid, CompositeSolid. Parts belong to the building that they hang under, not to a CityObjectGroup;
+// where they have a higher LoD (of 1, 2, 3), what the building has itself is left out. Left out, too:
+// grounds and closures, rooms inside, textures, materials, templates (GeometryInstance), other objects of
+// the city (roads, land, water, plants, tunnels, groups, the units of a building, whose walls its own hold),
+// which are counted in a warning. A surface without semantics is a roof where it looks up, a wall where it
+// stands within 30 deg of the vertical, a ground where it looks down.
 //
 // Coordinates: of metadata.referenceSystem, else of the system that is named; PROJ converts them to
 // WGS 84 by the best way that it knows without grids (EPSG:7415 in the Netherlands: about 0.5 m). Heights

@@ -135,6 +135,65 @@ TEST_CASE("parts belong to their building, of each the highest level of detail t
   CHECK_FALSE(found.has("W-SKIPPED", "LoD"));
 }
 
+// CityJSON 2.0.2, CityObjectGroup: children name the group among their parents. All its buildings were one.
+TEST_CASE("buildings of a group stay buildings of their own, and parts find theirs behind it",
+          "[cityjson]") {
+  json city = tests::house();
+  json& objects = city["CityObjects"];
+  objects["block"] = {{"type", "CityObjectGroup"}, {"children", {"house", "other", "part"}}};
+  objects["other"] = objects["house"];
+  objects["part"] = objects["house"];
+  objects["part"]["type"] = "BuildingPart";
+  for (const char* id : {"house", "other"}) objects[id]["parents"] = {"block"};
+  objects["part"]["parents"] = {"block", "other"};
+  const Read found = read(city);
+  REQUIRE(found.city.buildings.size() == 2);
+  CHECK(found.city.buildings[0].id == "house");
+  CHECK(found.city.buildings[1].id == "other");
+  CHECK(found.city.buildings[1].triangles.size() == 2 * found.city.buildings[0].triangles.size());
+  CHECK(found.has("W-SKIPPED", "1 CityObjectGroup"));
+}
+
+// CityJSON 2.0.2, Geometry Objects: several of one lod stand for a MultiGeometry. The first alone was read.
+TEST_CASE("all geometries of the highest level of detail are read", "[cityjson]") {
+  json city = tests::house();
+  json& geometries = city["CityObjects"]["house"]["geometry"];
+  json floor = json::parse(R"({"type": "MultiSurface", "boundaries": [[[4, 5, 6, 7]]],
+    "semantics": {"surfaces": [{"type": "OuterFloorSurface"}], "values": [0]}})");
+  for (const char* lod : {"2.1", "2.2"}) {
+    floor["lod"] = lod;
+    geometries.push_back(floor);
+  }
+  const auto areas = areas_m2(read(city).city);
+  CHECK(areas.at("RoofSurface") == Approx(120.0).epsilon(2e-3));
+  CHECK(areas.at("OuterFloorSurface") == Approx(12.0 * 8.0).epsilon(2e-3));
+}
+
+TEST_CASE("a building's block does not hide its finer parts, and coarser parts stay",
+          "[cityjson]") {
+  json city = tests::house();
+  json& objects = city["CityObjects"];
+  objects["part"] = objects["house"];
+  objects["part"]["type"] = "BuildingPart";
+  objects["part"]["parents"] = {"house"};
+  const auto with_lods = [&](const char* building, const char* part) {
+    objects["house"]["geometry"][0]["lod"] = building;
+    objects["part"]["geometry"][0]["lod"] = part;
+    return read(city);
+  };
+  const Read finer = with_lods("1.2", "2.2");
+  REQUIRE(finer.city.buildings.size() == 1);
+  CHECK(finer.city.buildings[0].id == "house");
+  CHECK(areas_m2(finer.city).at("RoofSurface") == Approx(120.0).epsilon(2e-3));
+  CHECK(finer.has("W-SKIPPED", "buildings coarser than their parts = 1"));
+  for (const char* part : {"1.2", "2.2", "2.3"}) {
+    INFO(part);
+    const Read both = with_lods("2.2", part);
+    CHECK(areas_m2(both.city).at("RoofSurface") == Approx(240.0).epsilon(2e-3));
+    CHECK(both.problems.empty());
+  }
+}
+
 TEST_CASE("surfaces without semantics are told apart by how they stand", "[cityjson]") {
   json city = tests::house();
   city["CityObjects"]["house"]["geometry"][0].erase("semantics");
