@@ -68,6 +68,14 @@ bool drop_points(OGRPolygon& polygon) {
   return true;
 }
 
+// The outline of a building whose parts are features as well: its block would hide them.
+bool is_hidden(const OGRFeature& feature) {
+  const int index = feature.GetFieldIndex("hide_3d");
+  if (index < 0 || !feature.IsFieldSetAndNotNull(index)) return false;
+  const char* text = feature.GetFieldAsString(index);  // "1" of true
+  return EQUAL(text, "1") || EQUAL(text, "true");
+}
+
 class FootprintReader {
  public:
   FootprintReader(const std::filesystem::path& path, const FootprintOptions& options,
@@ -111,6 +119,7 @@ class FootprintReader {
   std::size_t repaired_ = 0;
   std::size_t without_height_ = 0;
   std::size_t no_polygons_ = 0;
+  std::size_t hidden_ = 0;
   std::size_t degenerate_ = 0;
 };
 
@@ -193,6 +202,10 @@ void FootprintReader::read_feature(OGRFeature& feature) {
   if (geometry != nullptr) collect_polygons(*geometry, polygons);
   if (polygons.empty()) {
     ++no_polygons_;
+    return;
+  }
+  if (is_hidden(feature)) {
+    ++hidden_;
     return;
   }
   for (OGRPolygon* polygon : polygons)
@@ -323,6 +336,7 @@ void FootprintReader::report_counts() {
                   : core::names_there_text(options_.height_property,
                                            {properties_.begin(), properties_.end()})));
   report("SKIPPED", no_polygons_, "features that are no polygons", "left out");
+  report("SKIPPED", hidden_, "features with hide_3d", "left out: outlines around building parts");
   report("DEGENERATE", degenerate_, "footprints without area or height", "left out");
 }
 

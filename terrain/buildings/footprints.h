@@ -3,7 +3,8 @@
 // Polygons and the parts of multi-polygons become one footprint each, courtyards kept as holes.
 // Rings that cross or touch themselves are repaired by GEOS (OGR's MakeValid): the area they
 // enclose stays, ambiguous linework does not. Coordinates in another system than WGS 84 (the old
-// "crs" member) are converted; heights of vertices are ignored.
+// "crs" member) are converted; heights of vertices are ignored. Features whose property hide_3d is true
+// are left out: in the OpenMapTiles schema the outlines of buildings whose parts are features as well.
 #pragma once
 
 #include <cstddef>
@@ -50,8 +51,8 @@ inline constexpr std::size_t kMostFileCrossings = 10'000;
 // not on the Earth), E-RANGE (coordinates outside the Earth; heights that are no numbers or outside 0
 // to 1000 m), all features together. Warnings, with counts: W-UNCLOSED rings, which do not end where
 // they begin as RFC 7946 asks and are closed, W-REPAIRED rings, W-DEFAULT heights, W-SKIPPED features
-// that are no polygons, W-DEGENERATE footprints without area or height. Courtyards that are a single point
-// are none.
+// that are no polygons or have hide_3d, W-DEGENERATE footprints without area or height. Courtyards that are
+// a single point are none.
 std::vector<Footprint> read_footprints(const std::filesystem::path& file,
                                        const FootprintOptions& options,
                                        core::ProblemList& problems);

@@ -229,6 +229,26 @@ TEST_CASE("Missing heights, other shapes and empty footprints are counted", "[fo
                  Contains("W-DEGENERATE footprints without area or height = 2"));
 }
 
+// OpenMapTiles, layers/building/building.yaml: "building outlines are marked as hide_3d". They hid their parts.
+TEST_CASE("Outlines that are not to be drawn beside their parts are left out", "[footprints]") {
+  const auto hidden = [](const std::string& value) {
+    return feature(R"("render_height":40,"hide_3d":)" + value, "Polygon", kSquare);
+  };
+  for (const char* yes : {"true", "1", "\"true\""}) {
+    CAPTURE(yes);
+    core::ProblemList problems;
+    const auto footprints = read(collection(hidden(yes) + "," + hidden("null") + "," +
+                                            feature(R"("render_height":8)", "Polygon", kSquare)),
+                                 problems);
+    REQUIRE(footprints.size() == 2);
+    CHECK(footprints[1].height_m == 8.0);
+    CHECK_THAT(warnings_of(problems), Contains("W-SKIPPED features with hide_3d = 1: left out"));
+  }
+  core::ProblemList problems;
+  CHECK(read(collection(hidden("false") + "," + hidden("false")), problems).size() == 2);
+  CHECK(problems.all().empty());
+}
+
 TEST_CASE("Where no feature has the height property, the properties there are told",
           "[footprints]") {
   core::ProblemList problems;
