@@ -51,6 +51,34 @@ std::optional<std::size_t> features_without(const std::filesystem::path& file,
   return 0;
 }
 
+// The property that goes with the height's by its name ("min_height" with "height"), where by it most
+// buildings stand on the ground: as the lowest point of a roof it would raise all. Empty for none.
+std::string underside_beside(const std::filesystem::path& file,
+                             const std::vector<std::string>& properties,
+                             const std::string& height_property) {
+  for (const std::string& property : properties) {
+    std::string letters = plain(property);
+    if (!is_underside(letters) || letters.erase(letters.find("min"), 3) != plain(height_property))
+      continue;
+    terrain::FootprintOptions options;
+    options.height_property = height_property;
+    options.min_height_property.clear();
+    core::ProblemList told;
+    const std::size_t all = terrain::read_footprints(file, options, told).size();
+    options.min_height_property = property;
+    try {
+      const auto footprints = terrain::read_footprints(file, options, told);
+      const auto standing =
+          std::count_if(footprints.begin(), footprints.end(),
+                        [](const terrain::Footprint& each) { return each.min_height_m == 0.0; });
+      return 2 * static_cast<std::size_t>(standing) >= all ? property : "";
+    } catch (const core::InputError&) {
+      return "";  // not always a height
+    }
+  }
+  return "";
+}
+
 }  // namespace
 
 std::optional<BuildingsGuess> guess_buildings(const std::filesystem::path& file, Notes& notes,
@@ -63,12 +91,7 @@ std::optional<BuildingsGuess> guess_buildings(const std::filesystem::path& file,
     std::vector<std::string> tried;
     for (const std::string& property : properties) {
       const std::string letters = plain(property);
-      if (!is_height(letters)) continue;
-      if (is_underside(letters)) {
-        guess.min_height_property = property;
-        continue;
-      }
-      if (tried.size() >= kMostTried) continue;
+      if (!is_height(letters) || is_underside(letters) || tried.size() >= kMostTried) continue;
       tried.push_back(property);
       const std::optional<std::size_t> without = features_without(file, property);
       if (!without || (fewest && *fewest <= *without)) continue;
@@ -77,7 +100,10 @@ std::optional<BuildingsGuess> guess_buildings(const std::filesystem::path& file,
     }
     core::ProblemList told;
     terrain::FootprintOptions options;
-    if (fewest) options.height_property = guess.height_property;
+    if (fewest) {
+      options.height_property = guess.height_property;
+      guess.min_height_property = underside_beside(file, properties, guess.height_property);
+    }
     if (!guess.min_height_property.empty()) options.min_height_property = guess.min_height_property;
     const std::size_t count = terrain::read_footprints(file, options, told).size();
     std::string text =
@@ -89,7 +115,9 @@ std::optional<BuildingsGuess> guess_buildings(const std::filesystem::path& file,
       text += ", 5 m each: no property speaks of a height";
     else
       text += ", 5 m each: \"" + safe_words(tried.front()) + "\" is not always a number of metres";
-    notes.push_back({"buildings", text, !fewest || *fewest > 0});
+    const bool raised = !guess.min_height_property.empty();
+    if (raised) text += ", undersides from \"" + safe_words(guess.min_height_property) + "\"";
+    notes.push_back({"buildings", text, !fewest || *fewest > 0 || raised});
     return guess;
   } catch (const core::InputError& error) {
     problems.append(error.problems());

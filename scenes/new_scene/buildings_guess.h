@@ -15,7 +15,9 @@ struct BuildingsGuess {
 };
 
 // Of the properties whose names speak of a height, the one that most features have with a number of
-// metres. Adds what terrain::read_footprints refuses in the file to `problems`; then nothing.
+// metres; and the one of the underside that its name goes with, "min_height" with "height", where it leaves
+// most buildings on the ground. Adds what terrain::read_footprints refuses in the file to `problems`; then
+// nothing.
 std::optional<BuildingsGuess> guess_buildings(const std::filesystem::path& file, Notes& notes,
                                               core::ProblemList& problems);
 

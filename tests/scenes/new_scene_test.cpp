@@ -89,6 +89,25 @@ tests::Outcome built(const tests::TemporaryFolder& folder, const NewScene& scene
   return tests::build(folder.path());
 }
 
+// A square of 20 m x 33 m.
+std::string square_with(const std::string& properties, double east_deg) {
+  const std::string x = std::to_string(east_deg), x2 = std::to_string(east_deg + 0.0003);
+  return R"({"type":"Feature","properties":{)" + properties +
+         R"(},"geometry":{"type":"Polygon","coordinates":[[[)" + x + ",52.01],[" + x2 +
+         ",52.01],[" + x2 + ",52.0103],[" + x + ",52.0103],[" + x + ",52.01]]]}}";
+}
+
+BuildingsGuess guessed_of(const std::string& features, Notes& notes) {
+  const tests::TemporaryFolder folder;
+  const auto file =
+      folder.write("b.geojson", R"({"type":"FeatureCollection","features":[)" + features + "]}");
+  core::ProblemList problems;
+  const auto guess = guess_buildings(file, notes, problems);
+  INFO(all_of(problems));
+  REQUIRE(guess.has_value());
+  return *guess;
+}
+
 }  // namespace
 
 TEST_CASE("What a file says of its heights counts, and published elevations may contradict it",
@@ -242,38 +261,48 @@ TEST_CASE("Posts without a height are filled in a new scene", "[new-scene]") {
 
 TEST_CASE("The height property of buildings is the one that most features have as a number",
           "[new-scene]") {
-  const tests::TemporaryFolder folder;
-  const auto feature = [](const std::string& properties, double east) {
-    const std::string x = std::to_string(east), x2 = std::to_string(east + 0.0003);
-    return R"({"type":"Feature","properties":{)" + properties +
-           R"(},"geometry":{"type":"Polygon","coordinates":[[[)" + x + ",52.01],[" + x2 +
-           ",52.01],[" + x2 + ",52.0103],[" + x + ",52.0103],[" + x + ",52.01]]]}}";
-  };
-  const auto guessed = [&](const std::string& features, Notes& notes) {
-    const auto file =
-        folder.write("b.geojson", R"({"type":"FeatureCollection","features":[)" + features + "]}");
-    core::ProblemList problems;
-    const auto guess = guess_buildings(file, notes, problems);
-    INFO(all_of(problems));
-    REQUIRE(guess.has_value());
-    return *guess;
-  };
   Notes notes;
-  const auto some = guessed(feature(R"("building:height":12,"height":"12 m")", 10.0) + "," +
-                                feature(R"("building:height":9.5,"building:levels":3)", 10.001),
-                            notes);
+  const auto some =
+      guessed_of(square_with(R"("building:height":12,"height":"12 m")", 10.0) + "," +
+                     square_with(R"("building:height":9.5,"building:levels":3)", 10.001),
+                 notes);
   CHECK(some.height_property == "building:height");
   CHECK_THAT(listed(notes), Contains("2 footprints, heights from \"building:height\""));
   notes.clear();
-  const auto measured = guessed(feature(R"("measuredHeight":12,"min_height":2)", 10.0) + "," +
-                                    feature(R"("name":"shed")", 10.001),
-                                notes);
+  const auto measured = guessed_of(
+      square_with(R"("measuredHeight":12)", 10.0) + "," + square_with(R"("name":"shed")", 10.001),
+      notes);
   CHECK(measured.height_property == "measuredHeight");
-  CHECK(measured.min_height_property == "min_height");
   CHECK_THAT(listed(notes), Contains("of 1 without it 5 m"));
   notes.clear();
-  CHECK(guessed(feature(R"("name":"shed")", 10.0), notes).height_property.empty());
+  CHECK(guessed_of(square_with(R"("name":"shed")", 10.0), notes).height_property.empty());
   CHECK_THAT(listed(notes), Contains("? buildings") && Contains("5 m each"));
+}
+
+// "MIN_HEIGHT" of massing from lidar is the lowest point of the roof: all buildings floated at it.
+TEST_CASE("The underside of buildings is the property named like their height, if most stand by it",
+          "[new-scene]") {
+  const auto underside = [](const std::string& raised, const std::string& standing, Notes& notes) {
+    return guessed_of(square_with(raised, 10.0) + "," + square_with(standing, 10.001), notes)
+        .min_height_property;
+  };
+  Notes notes;
+  const std::string lidar = R"("AVG_HEIGHT":18.5,"MIN_HEIGHT":15,"MAX_HEIGHT":21)";
+  CHECK(underside(lidar, lidar, notes).empty());
+  CHECK_THAT(listed(notes), Contains("heights from \"AVG_HEIGHT\"") && !Contains("? buildings"));
+  notes.clear();
+  const std::string roofs = R"("HEIGHT":18.5,"MIN_HEIGHT":15)";
+  CHECK(underside(roofs, roofs, notes).empty());
+  const std::string gone = R"("height":12,"min_height":13)";  // none would be left
+  CHECK(underside(gone, gone, notes).empty());
+  CHECK(underside(R"("height":12,"min_height":"yes")", R"("height":9)", notes).empty());
+  CHECK(underside(R"("measuredHeight":12,"min_height":2)", R"("measuredHeight":9)", notes).empty());
+  notes.clear();
+  CHECK(underside(R"("height":12,"min_height":3)", R"("height":9)", notes) == "min_height");
+  CHECK(underside(R"("building:height":12,"building:min_height":3)",
+                  R"("building:height":9,"building:min_height":0)",
+                  notes) == "building:min_height");
+  CHECK_THAT(listed(notes), Contains("? buildings") && Contains("undersides from \"min_height\""));
 }
 
 TEST_CASE("Foreign text in a scene file is data, whatever is in it", "[new-scene]") {
