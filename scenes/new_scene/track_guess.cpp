@@ -21,7 +21,7 @@ constexpr double kNearAirport_m = 100e3;
 constexpr double kFitted_m = 5000.0;           // before the threshold
 constexpr double kBelievable_m = 60.0;         // off the threshold crossing height
 constexpr double kLargestByWeather_m = 600.0;  // 70 hPa
-constexpr double kAboveWheels_m = 3.0;         // where a flight ends, above the runway
+constexpr double kAboveWheels_m = 3.0;         // above the ground: where a flight begins and ends
 
 // A way to read the numbers of a height column.
 struct Reading {
@@ -46,8 +46,7 @@ class TrackGuesser {
     choose_angles();
     if (problems_.has_errors()) return std::nullopt;
     place_rows();
-    if (!choose_part() || !choose_height()) return std::nullopt;
-    end_above_runway();
+    if (!choose_part() || !choose_height() || !keep_rows_in_the_air()) return std::nullopt;
     name_columns();
     return std::move(result_);
   }
@@ -244,21 +243,41 @@ class TrackGuesser {
     notes_.push_back({"track height", text, guess});
   }
 
-  // Cuts off what is on the ground: a frame's antenna must be above it.
-  void end_above_runway() {
-    std::size_t last = part_.first;
-    for (std::size_t i = part_.first; i <= part_.last; ++i) {
-      if (!std::isfinite(table_.rows[i].height[column_])) continue;
-      const double height_m = sea_level_m(i, reading_) + result_.columns.height_offset_m;
-      const double ground_m =
-          rows_[i].before_m < 0.0 && is_approach_
-              ? reference_.threshold.height_m - reference_.runway_slope * rows_[i].before_m
-              : reference_.ground_m(rows_[i].position).value_or(0.0);
-      if (height_m < ground_m + kAboveWheels_m) break;
-      last = i;
-      result_.path.push_back(rows_[i].position);
+  // Nothing where the row has no height.
+  std::optional<double> above_ground_m(std::size_t row) const {
+    if (!std::isfinite(table_.rows[row].height[column_])) return std::nullopt;
+    const double ground_m =
+        rows_[row].before_m < 0.0 && is_approach_
+            ? reference_.threshold.height_m - reference_.runway_slope * rows_[row].before_m
+            : reference_.ground_m(rows_[row].position).value_or(0.0);
+    return sea_level_m(row, reading_) + result_.columns.height_offset_m - ground_m;
+  }
+
+  // Cuts off what is on the ground: a frame's antenna must be above it. Between rows in the air a low one is
+  // a wrong height, for whoever reads the whole file to judge; behind the threshold it is the landing, also
+  // where the flight goes around after it.
+  bool keep_rows_in_the_air() {
+    const auto flies = [&](std::size_t row) {
+      return above_ground_m(row).value_or(0.0) >= kAboveWheels_m;
+    };
+    for (std::size_t i = part_.first; is_approach_ && i < part_.last; ++i)
+      if (rows_[i].before_m < 0.0 && above_ground_m(i).value_or(kAboveWheels_m) < kAboveWheels_m)
+        part_.last = i;
+    while (part_.first < part_.last && !flies(part_.first)) ++part_.first;
+    while (part_.first < part_.last && !flies(part_.last)) --part_.last;
+    if (part_.first == part_.last) {
+      problems_.error(ErrorClass::range, table_.header, "flight",
+                      "never " + whole(kAboveWheels_m) + " m above the ground in two rows",
+                      "two rows in the air: look at the unit of " + result_.columns.height.name);
+      return false;
     }
-    part_.last = last;
+    for (std::size_t i = part_.first; i <= part_.last; ++i)
+      result_.path.push_back(rows_[i].position);
+    tell_times();
+    return true;
+  }
+
+  void tell_times() {
     result_.columns.from_time_s = std::floor(1e3 * rows_[part_.first].time_s) / 1e3;
     result_.columns.to_time_s = std::ceil(1e3 * rows_[part_.last].time_s) / 1e3;
     notes_.push_back(

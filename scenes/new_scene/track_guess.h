@@ -38,11 +38,13 @@ struct TrackGuess {
 // straight line through the approach's last 5 km comes nearest to the threshold crossing height.
 // Heights by pressure also get the offset that brings them there.
 //
+// Rows on the ground are left out at both ends; what goes around after a landing ends with that.
+//
 // What is not readable as a flight, with its line: E-IO, E-PARSE for columns that no name tells and
 // for times in an unknown form; E-RANGE for a flight that never comes within the start distance of
 // the threshold or not over the elevation data, with a word when its latitudes and longitudes are
-// exchanged. Rows with cells that are no numbers are passed over here: whoever reads the whole file
-// judges them.
+// exchanged, or has no two rows in the air there. Rows with cells that are no numbers are passed over
+// here: whoever reads the whole file judges them.
 std::optional<TrackGuess> guess_track(const std::filesystem::path& file,
                                       const TrackReference& reference, Notes& notes,
                                       core::ProblemList& problems);

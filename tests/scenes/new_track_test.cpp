@@ -230,6 +230,33 @@ TEST_CASE("The approach begins at the start distance and ends above the runway",
   CHECK(result.guess.path.size() == 75);
 }
 
+TEST_CASE("A flight is what lies in the air, whatever single heights say and wherever it began",
+          "[new-track]") {
+  // The flight ended at the first row near the ground.
+  const Guessed wrong =
+      guessed(table("t,lat,lon,alt_msl_m", [](int t, double a, double b, double h) {
+        return joined(t, a, b, t == 50 ? 0.0 : h);
+      }));
+  CHECK(wrong.guess.path.size() == 75);
+  CHECK(*wrong.guess.columns.to_time_s == Approx(117.0));
+  // On the ground from 118 s on, then up again over the same runway.
+  const Guessed again =
+      guessed(table("t,lat,lon,alt_msl_m", [](int t, double a, double b, double h) {
+        return joined(t, a, b, t < 124 ? h : 80.0 + 10.0 * (t - 123));
+      }));
+  CHECK(*again.guess.columns.to_time_s == Approx(117.0));
+  // Taking off to the west at the threshold: 20 s on the runway.
+  std::string departure = "t,lat,lon,alt_msl_m\n";
+  for (int t = 0; t < 60; ++t)
+    departure += joined(t, 52.0, 10.0 - 0.0008 * t, 80.5 + 5.0 * std::max(0, t - 20)) + "\n";
+  const Guessed up = guessed(departure);
+  CHECK(*up.guess.columns.from_time_s == Approx(21.0));
+  CHECK(*up.guess.columns.to_time_s == Approx(59.0));
+  CHECK_THAT(refused(table("t,lat,lon,alt_msl_m", [](int t, double a, double b,
+                                                     double) { return joined(t, a, b, 81.0); })),
+             Contains("E-RANGE flight = never 3 m above the ground in two rows"));
+}
+
 TEST_CASE("Of several approaches the first is taken, and that is told", "[new-track]") {
   std::string text = "t,lat,lon,alt_msl_m\n";
   for (int lap = 0; lap < 3; ++lap)
