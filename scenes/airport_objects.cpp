@@ -35,6 +35,11 @@ class AirportTable {
     const bool taxiways = table_.boolean("taxiways", true), papi = table_.boolean("papi", true);
     if (!airport) return;
     for (const std::string& name : wanted) check_name(name, *airport);
+    if (level_is_unknown() && scene_.terrain.elevation.empty())
+      table_.error(
+          core::ErrorClass::range, "file", "elevations above mean sea level",
+          "vertical_datum = \"ellipsoid\" or \"egm96\", or [terrain] elevation for runways to "
+          "lie on: the scene's heights count from an unknown level");
     for (const AirportRunway& runway : airport->runways)
       if (!runway.surface.water && is_wanted(runway, wanted))
         add_runway(*airport, runway, light_rcs_m2);
@@ -43,6 +48,9 @@ class AirportTable {
   }
 
  private:
+  // Then nothing says how high above the file's sea level the scene's heights begin.
+  bool level_is_unknown() const { return scene_.datum == core::VerticalDatum::scene; }
+
   static bool is_wanted(const AirportRunway& runway, const std::vector<std::string>& wanted) {
     if (wanted.empty()) return true;
     return std::any_of(wanted.begin(), wanted.end(), [&](const std::string& name) {
@@ -84,7 +92,7 @@ class AirportTable {
 
   void place_end(const Airport& airport, const AirportRunwayEnd& from, RunwayEndDescription& end) {
     end.pavement_end = from.pavement_end;
-    end.on_ground = !from.elevation_m && !scene_.terrain.elevation.empty();
+    end.on_ground = (!from.elevation_m || level_is_unknown()) && !scene_.terrain.elevation.empty();
     if (end.on_ground) return;
     const std::optional<double> elevation_m =
         from.elevation_m ? from.elevation_m : airport.elevation_m;
@@ -133,6 +141,7 @@ class AirportTable {
                                     kPapiSpacing_m * (i - (kPapiUnits - 1) / 2.0));
         TargetDescription target;
         target.name = "PAPI";
+        target.from_airport = true;
         target.rcs = unit->rcs();
         target.swerling = unit->fluctuation;
         target.heading_rad = papi.heading_rad + core::kPi;  // looks at who lands

@@ -163,6 +163,7 @@ struct TargetDescription {
   double heading_rad = 0.0, tilt_rad = 0.0;  // boresight: clockwise from north, up from horizontal
   core::Swerling swerling = core::Swerling::steady;
   std::vector<Waypoint> path;
+  bool from_airport = false;  // left out beyond the terrain, as its lights are
   core::Place place;
 };
 

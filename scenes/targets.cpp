@@ -80,6 +80,11 @@ void add_line(const LineDescription& line, const Ground& ground, core::Polarisat
   close_group(line.name, line.place, targets, true);
 }
 
+bool stands_on_terrain(const Spot& at, const Ground& ground) {
+  const glm::dvec2 at_m = ground.local_m(at.latitude_rad, at.longitude_rad);
+  return ground.field().height_at(at_m.x, at_m.y).has_value();
+}
+
 // The way with a swing along it: speeds within 1.7 % of the largest.
 std::vector<PointTarget::Waypoint> swung(const std::vector<PointTarget::Waypoint>& path,
                                          const TargetDescription::Swing& swing) {
@@ -172,6 +177,7 @@ PointTargets build_targets(const SceneDescription& scene, const Ground& ground,
     if (full(line.place, "line")) return targets;
   }
   for (const TargetDescription& target : scene.targets) {
+    if (target.from_airport && !stands_on_terrain(target.path.front().at, ground)) continue;
     near_field.look_at(target.rcs, target.name, target.place);
     add_target(target, ground, problems, targets);
     if (full(target.place, "target")) return targets;

@@ -246,6 +246,43 @@ TEST_CASE("An end without an elevation lies on the line that the elevation data 
   }
 }
 
+// Elevations above the sea went into a level that nobody knows: with heights over the ellipsoid 48 m too deep.
+TEST_CASE("Where nobody knows the scene's level an airport's ends lie on its ground", "[airport]") {
+  const TemporaryFolder folder;
+  folder.write("apt.csv",
+               "airport,runway_end,end_lat_deg,end_lon_deg,end_elevation_m_msl,width_m,surface\n"
+               "TEST,36,52.0,10.0,35,45,ASP\nTEST,18,52.018,10.0,55,45,ASP\n");
+  tests::AsciiGrid grid;
+  grid.columns = 250, grid.rows = 200, grid.west = 9.9, grid.south = 51.95, grid.cell = 0.0008;
+  grid.write(folder, "dem", [&](int, int row) {
+    return std::to_string(80.0 + (grid.post_y(row) - 52.0) / 0.018 * 20.0);
+  });
+  const auto text = [](const std::string& terrain) {
+    return tests::replaced(scene_with("", terrain, "scene"), "apt.dat", "apt.csv");
+  };
+  const auto scene = tests::good_scene(folder, text("elevation = \"dem.asc\""));
+  REQUIRE(scene->runways.size() == 1);
+  for (const int end : {0, 1})
+    CHECK(scene->frame.to_geodetic(scene->runways[0].ends[end].pavement_end_m).height_m ==
+          Approx(end == 0 ? 80.0 : 100.0).epsilon(0.0).margin(0.3));
+  const tests::Outcome plain = tests::build_text(folder, text(""));
+  CHECK(plain.scene == nullptr);
+  std::string told;
+  for (const core::Problem& problem : plain.problems) told += core::to_string(problem) + "\n";
+  CHECK_THAT(told, Catch::Contains("E-RANGE airport[0].file = elevations above mean sea level") &&
+                       Catch::Contains("count from an unknown level"));
+}
+
+// A scene of one runway of a large airport could not be made: PAPI of the others were errors.
+TEST_CASE("A PAPI beyond the terrain is left out as lights are", "[airport]") {
+  const TemporaryFolder folder;
+  folder.write("apt.dat", tests::replaced(kAirport, "21 52.00270000 009.99940000 2",
+                                          "21 52.00270000 009.90000000 2"));
+  const auto scene = tests::good_scene(folder, scene_with(""));
+  CHECK(count_named(*scene, "PAPI") == 0);
+  CHECK(count_named(*scene, "taxiway light") == 9);
+}
+
 TEST_CASE("What an airport's line leaves out or has wrong", "[airport]") {
   const TemporaryFolder folder;
   folder.write("apt.dat", kAirport);
