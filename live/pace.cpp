@@ -14,25 +14,28 @@ double effort_of(double samples) { return samples + 0.5; }
 
 }  // namespace
 
+// A fast rate has more than a hundred in the time that is looked at, a slow one fewer.
 void Pace::keep(const Taken& frame) {
   taken_.push_back(frame);
-  if (taken_.size() > kFrames) taken_.pop_front();
+  while (taken_.size() > kFrames && taken_.front().at_s < frame.at_s - look_s()) taken_.pop_front();
 }
 
 bool Pace::too_slow() const {
+  const auto last = static_cast<std::ptrdiff_t>(std::min(taken_.size(), kFrames));
   const auto over = [&](double limit_s) {
-    return std::count_if(taken_.begin(), taken_.end(),
+    return std::count_if(taken_.end() - last, taken_.end(),
                          [&](const Taken& taken) { return taken.frame_s > limit_s; });
   };
   return over(kShare * period_s_) > 1 || over(kMostPeriods * period_s_) > 0;
 }
 
+double Pace::look_s() const { return std::max(kLook_s, kFewest * period_s_); }
+
 double Pace::usual_s(double now_s) const {
-  const double look_s = std::max(kLook_s, kFewest * period_s_);
-  if (now_s - taken_.front().at_s <= 0.9 * look_s) return 0.0;
+  if (now_s - taken_.front().at_s <= 0.9 * look_s()) return 0.0;
   double slowest_s = 0.0, next_s = 0.0;
   for (const Taken& taken : taken_) {
-    if (taken.at_s < now_s - look_s) continue;
+    if (taken.at_s < now_s - look_s()) continue;
     next_s = std::max(next_s, std::min(slowest_s, taken.frame_s));
     slowest_s = std::max(slowest_s, taken.frame_s);
   }

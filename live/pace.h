@@ -44,6 +44,8 @@ class Pace {
 
   void keep(const Taken& frame);
   bool too_slow() const;
+  // Over which frames are looked at before the sampling becomes finer.
+  double look_s() const;
   // What the slowest frame but one of the last two seconds took; 0 while there are none.
   double usual_s(double now_s) const;
   void go_to(std::size_t step) {
@@ -56,7 +58,7 @@ class Pace {
   std::size_t step_ = 0;
   std::size_t refused_step_ = 0;  // until then
   double refused_until_s_ = 0.0;
-  std::deque<Taken> taken_;  // the last hundred with this step
+  std::deque<Taken> taken_;  // with this step: of look_s(), and the last hundred
 };
 
 // Inside and outside the planned volume: out there it begins as it was inside, which goes on as it was.

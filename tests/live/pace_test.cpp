@@ -65,6 +65,29 @@ TEST_CASE("Sampling grows at a frame in ten seconds too", "[pace]") {
   CHECK(pace.samples() == 8);
 }
 
+// Two seconds are more than a hundred frames.
+TEST_CASE("Sampling grows at ninety frames a second and at a thousand too", "[pace]") {
+  for (const double rate_Hz : {90.0, 1000.0}) {
+    INFO(rate_Hz);
+    Pace pace(kLadder, 1.0 / rate_Hz);
+    double now_s = 0.0;
+    const auto fly = [&](double span_s) {
+      for (const double end_s = now_s + span_s; now_s < end_s; now_s += 1.0 / rate_Hz)
+        pace.after(now_s, 0.02 * pace.samples() / rate_Hz);
+    };
+    fly(30.0);
+    CHECK(pace.samples() == 8);
+    // Two late ones are too many among a hundred, not farther apart.
+    for (int second = 0; second < 5; ++second) {
+      pace.after(now_s, 0.9 / rate_Hz);
+      fly(120.0 / rate_Hz);
+    }
+    CHECK(pace.samples() == 8);
+    pace.after(now_s, 0.9 / rate_Hz);
+    CHECK(pace.after(now_s + 1.0 / rate_Hz, 0.9 / rate_Hz) == 4);
+  }
+}
+
 namespace {
 
 // Inside 4 samples have room, outside 2.
