@@ -87,7 +87,7 @@ std::optional<Answer> Access::refuse(const Request& request) const {
   const std::string_view told = request.authorization;
   if (told.starts_with(kBearer) && is_same(told.substr(kBearer.size()), token_))
     return std::nullopt;
-  if (is_same(cookie_in(request.cookie, name), token_)) return std::nullopt;
+  // Before the cookie: a link that is opened once more signs in again, so that the address keeps no token.
   const std::string_view target = request.target;
   if (request.method == "GET" && target.starts_with(kSignIn) &&
       is_same(target.substr(kSignIn.size()), token_)) {
@@ -96,6 +96,7 @@ std::optional<Answer> Access::refuse(const Request& request) const {
     answer.set_cookie = name + "=" + token_ + "; Path=/; HttpOnly; SameSite=Strict";
     return answer;
   }
+  if (is_same(cookie_in(request.cookie, name), token_)) return std::nullopt;
   return refusal(401, "a token is needed: open /?token=TOKEN, or send Authorization: Bearer TOKEN");
 }
 

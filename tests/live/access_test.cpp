@@ -107,6 +107,12 @@ TEST_CASE("The page is opened with the token once; the browser's cookie carries 
   CHECK(status_of(access, next) == 401);
   next.cookie = "xfanbeam_8416=" + kToken + ";;; =;";
   CHECK(status_of(access, next) == 401);
+  // A bookmark of the link, opened again: its token would stay in address bar and history.
+  Request again = asking("/?token=" + kToken);
+  again.cookie = "fanbeam_8416=" + kToken;
+  CHECK(status_of(access, again) == 303);
+  again.target = "/?token=" + kToken.substr(1);
+  CHECK(status_of(access, again) == 200);
   // The sign-in is for the page alone.
   CHECK(status_of(access, asking("/api/status?token=" + kToken)) == 401);
   Request post = asking("/?token=" + kToken);
