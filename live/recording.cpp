@@ -73,7 +73,8 @@ class Lines {
     const core::JsonNode from = line.required("from");
     flown_by.from = from.is_array() ? from.texts(FlownBy::kMostSources)
                                     : std::vector<std::string>{from.text().value_or("")};
-    flown_by.rate_Hz = line.required("rate_Hz").number({0.1, 1000.0}).value_or(16.0);
+    // As a sensor file's frame_rate_Hz, which may be slower than --rate can be.
+    flown_by.rate_Hz = line.required("rate_Hz").number({1e-3, 1000.0}).value_or(16.0);
     flown_by.lockstep = line.required("lockstep").flag().value_or(false);
     if (const auto sensor = line.member("sensor"); sensor.present())
       flown_by.sensor = sensor.text();

@@ -387,6 +387,16 @@ TEST_CASE("A recording keeps its sensor and effects; an older one knows nothing 
   CHECK_FALSE(older.effects.has_value());
 }
 
+// What was flown with a sensor of a frame in twenty seconds was lost.
+TEST_CASE("A recording of any rate that a sensor may have is read", "[recording]") {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.path() / "flight.jsonl";
+  for (const double rate_Hz : {1e-3, 0.05, 1000.0}) {
+    live::Journal(file, {"s", {"circle"}, rate_Hz, true}).begin();
+    CHECK(live::read_recording(file).flown_by.rate_Hz == rate_Hz);
+  }
+}
+
 TEST_CASE("The last line of a channel that was killed is left out", "[recording]") {
   const tests::TemporaryFolder folder;
   const live::Recording recording = live::read_recording(folder.write(
