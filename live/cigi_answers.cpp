@@ -56,9 +56,10 @@ struct Line {
 // the entity's nose and wings.
 std::optional<Line> line_of(const scenes::Scene& scene, core::VerticalDatum datum,
                             const feeds::cigi::SightRequest& request, const glm::dvec3& from_m,
-                            const std::optional<core::Pose>& entity) {
+                            const std::optional<core::Pose>& entity,
+                            const std::optional<core::Pose>& end_entity) {
   if (request.segment) {
-    const auto end_m = local_m(scene, datum, request.end, request.to_entity, entity);
+    const auto end_m = local_m(scene, datum, request.end, request.to_entity, end_entity);
     if (!end_m || !(glm::length(*end_m - from_m) > 0.0)) return std::nullopt;
     return Line{glm::normalize(*end_m - from_m), 0.0, glm::length(*end_m - from_m)};
   }
@@ -101,13 +102,14 @@ feeds::cigi::HeightResponse height_answer(const scenes::Scene& scene, core::Vert
 
 feeds::cigi::SightResponse sight_answer(const scenes::Scene& scene, core::VerticalDatum datum,
                                         const feeds::cigi::SightRequest& request,
-                                        const std::optional<core::Pose>& entity) {
+                                        const std::optional<core::Pose>& entity,
+                                        const std::optional<core::Pose>& end_entity) {
   constexpr double kMost_m = 200e3;  // of a line
   constexpr double kClear_m = 0.1;   // before its end: what stands there is not in between
   feeds::cigi::SightResponse answer{request.request, request.extended};
   const auto from_m = local_m(scene, datum, request.source, request.from_entity, entity);
   const auto line = from_m && !request.answer_in_entity
-                        ? line_of(scene, datum, request, *from_m, entity)
+                        ? line_of(scene, datum, request, *from_m, entity, end_entity)
                         : std::nullopt;
   if (!line || !(line->most_m > line->least_m) || line->least_m < 0.0 || line->most_m > kMost_m)
     return answer;

@@ -18,13 +18,14 @@
 
 namespace fanbeam::live {
 
-// `entity`: that of the request, for offsets; without it such a request is answered as not valid. So
-// is one outside the terrain, and one whose answer is to be an offset.
+// `entity`, `end_entity`: those of the request, for offsets; without it such a request is answered as not
+// valid. So is one outside the terrain, and one whose answer is to be an offset.
 feeds::cigi::HeightResponse height_answer(const scenes::Scene& scene, core::VerticalDatum datum,
                                           const feeds::cigi::HeightRequest& request,
                                           const std::optional<core::Pose>& entity);
 feeds::cigi::SightResponse sight_answer(const scenes::Scene& scene, core::VerticalDatum datum,
                                         const feeds::cigi::SightRequest& request,
-                                        const std::optional<core::Pose>& entity);
+                                        const std::optional<core::Pose>& entity,
+                                        const std::optional<core::Pose>& end_entity);
 
 }  // namespace fanbeam::live

@@ -217,7 +217,8 @@ std::vector<std::uint8_t> CigiIg::answer(const scenes::Scene& scene, const Asked
     return cigi::height_response(
         height_answer(scene, datum_, *height, entities_.pose(height->entity)), asked.host_frame);
   const auto& sight = std::get<cigi::SightRequest>(asked.question);
-  return cigi::sight_response(sight_answer(scene, datum_, sight, entities_.pose(sight.entity)),
+  return cigi::sight_response(sight_answer(scene, datum_, sight, entities_.pose(sight.entity),
+                                           entities_.pose(sight.end_entity)),
                               asked.host_frame);
 }
 

@@ -159,6 +159,8 @@ HostPacket sight_segment_request(Fields& f) {
   packet.to_entity = f.bits(4, 2) != 0;
   packet.answer_in_entity = f.bits(4, 3) != 0;
   packet.entity = f.at<std::uint16_t>(6);
+  // Unless the end names its own, both are offsets from one.
+  packet.end_entity = f.bits(4, 4) != 0 ? f.at<std::uint16_t>(62) : packet.entity;
   packet.source = place_at(f, 8, packet.from_entity);
   packet.end = place_at(f, 32, packet.to_entity);
   packet.update_period = f.byte(60);

@@ -128,8 +128,8 @@ struct SightRequest {
   bool from_entity = false, to_entity = false;  // offsets as above
   bool answer_in_entity = false;
   std::uint8_t update_period = 0;
-  std::uint16_t entity = 0;
-  glm::dvec3 source{0.0}, end{0.0};  // as HeightRequest::place
+  std::uint16_t entity = 0, end_entity = 0;  // of the source and of the end
+  glm::dvec3 source{0.0}, end{0.0};          // as HeightRequest::place
   double azimuth_rad = 0.0, elevation_rad = 0.0, least_m = 0.0, most_m = 0.0;
 };
 

@@ -160,12 +160,14 @@ TEST_CASE("Questions of height and sight are at their offsets", "[cigi]") {
                                                          Packet(25, 64, false)
                                                              .put<std::uint16_t>(2, 10)
                                                              .put<std::uint8_t>(4, 1)
+                                                             .put<std::uint16_t>(6, 3)
                                                              .put(8, 47.0)
                                                              .put(16, 11.0)
                                                              .put(24, 900.0)
                                                              .put(32, 47.1)
                                                              .put(40, 11.1)
                                                              .put(48, 700.0)
+                                                             .put<std::uint16_t>(62, 7)
                                                              .bytes(),
                                                          Packet(26, 56, false)
                                                              .put<std::uint16_t>(2, 11)
@@ -177,12 +179,20 @@ TEST_CASE("Questions of height and sight are at their offsets", "[cigi]") {
                                                              .put(24, 2.0)
                                                              .put(32, 3.0)
                                                              .put(40, 4.0)
+                                                             .bytes(),
+                                                         Packet(25, 64, false)
+                                                             .put<std::uint8_t>(4, 4 | 16)
+                                                             .put<std::uint16_t>(6, 3)
+                                                             .put<std::uint16_t>(62, 7)
                                                              .bytes()}));
   const auto& height = std::get<HeightRequest>(message.packets[0]);
   CHECK((height.request == 9 && height.kind == HeightKind::extended && height.update_period == 4));
   CHECK(height.place == glm::dvec3(core::radians(47.0), core::radians(11.0), 900.0));
   const auto& segment = std::get<SightRequest>(message.packets[1]);
   CHECK((segment.segment && segment.extended && segment.end.z == 700.0));
+  CHECK((segment.entity == 3 && segment.end_entity == 3));  // 7 is not said to count
+  const auto& to_other = std::get<SightRequest>(message.packets[3]);
+  CHECK((to_other.to_entity && to_other.entity == 3 && to_other.end_entity == 7));
   const auto& vector = std::get<SightRequest>(message.packets[2]);
   CHECK((!vector.segment && vector.extended && vector.from_entity));
   CHECK(vector.source == glm::dvec3(2.0, 3.0, 4.0));  // an offset: no angles

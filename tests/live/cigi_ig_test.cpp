@@ -359,13 +359,13 @@ TEST_CASE("A line of sight ends at what stands in it", "[cigi]") {
   request.segment = request.extended = true;
   request.source = place(hangar_m + glm::dvec3(100.0, 0.0, 6.0));
   request.end = place(hangar_m + glm::dvec3(-100.0, 0.0, 6.0));
-  const auto blocked = live::sight_answer(*scene, core::VerticalDatum::scene, request, {});
+  const auto blocked = live::sight_answer(*scene, core::VerticalDatum::scene, request, {}, {});
   CHECK((blocked.valid && !blocked.visible));
   CHECK(blocked.range_m > 70.0);
   CHECK(blocked.range_m < 95.0);
   request.source.z += 30.0;
   request.end.z += 30.0;
-  const auto over = live::sight_answer(*scene, core::VerticalDatum::scene, request, {});
+  const auto over = live::sight_answer(*scene, core::VerticalDatum::scene, request, {}, {});
   CHECK((over.valid && over.visible));
   CHECK(over.range_m == Approx(200.0).epsilon(0.0).margin(0.1));
 
@@ -374,7 +374,7 @@ TEST_CASE("A line of sight ends at what stands in it", "[cigi]") {
   down.source.z = 250.0;
   down.elevation_rad = -core::kPi / 2;
   down.most_m = 1000.0;
-  const auto ground = live::sight_answer(*scene, core::VerticalDatum::scene, down, {});
+  const auto ground = live::sight_answer(*scene, core::VerticalDatum::scene, down, {}, {});
   CHECK((ground.valid && !ground.visible));
   HeightRequest height;
   height.place = down.source;
@@ -383,9 +383,45 @@ TEST_CASE("A line of sight ends at what stands in it", "[cigi]") {
             .epsilon(0.0)
             .margin(0.05));
   down.elevation_rad = core::kPi / 4;
-  CHECK_FALSE(live::sight_answer(*scene, core::VerticalDatum::scene, down, {}).valid);
+  CHECK_FALSE(live::sight_answer(*scene, core::VerticalDatum::scene, down, {}, {}).valid);
   down.from_entity = true;  // of nobody
-  CHECK_FALSE(live::sight_answer(*scene, core::VerticalDatum::scene, down, {}).valid);
+  CHECK_FALSE(live::sight_answer(*scene, core::VerticalDatum::scene, down, {}, {}).valid);
+}
+
+// It was taken for an offset from the entity that it begins at.
+TEST_CASE("A line of sight to another entity ends there", "[cigi]") {
+  enum : std::uint8_t { kExtended = 1, kFromEntity = 2, kToEntity = 4, kOwnEnd = 16 };
+  Station station;
+  const auto sight = [](std::uint8_t flags, double end_forward_m, std::uint16_t end_entity) {
+    return Packet(25, 64, false)
+        .put(4, flags)
+        .put<std::uint16_t>(6, 0)
+        .put(32, end_forward_m)
+        .put(62, end_entity)
+        .bytes();
+  };
+  constexpr std::uint8_t kBoth = kExtended | kFromEntity | kToEntity;
+  // Both head east, two degrees down, the other one ahead.
+  station.hear(message(1, {entity(52.0, 10.0, 300.0), entity(52.0, 10.01, 300.0, 90.0F, false, 7),
+                           sight(kBoth | kOwnEnd, 0.0, 7), sight(kBoth | kOwnEnd, 50.0, 7),
+                           sight(kBoth, 50.0, 7), sight(kBoth | kOwnEnd, 0.0, 9)}));
+  const auto packets = packets_in(station.ig.begin_frame());
+  REQUIRE(packets.size() == 5);
+  const terrain::LocalFrame& frame = station.session->scene()->frame;
+  const auto at_m = [&](double longitude_deg) {
+    return frame.to_local_m({core::radians(52.0), core::radians(longitude_deg), 300.0});
+  };
+  const double apart_m = glm::length(at_m(10.01) - at_m(10.0));
+  const auto range_m = [&](std::size_t i) { return packets[i].second.at<double>(8); };
+  const auto flags = [&](std::size_t i) { return packets[i].bytes[4]; };
+  constexpr std::uint8_t kValid = 1;
+  CHECK((flags(1) & kValid) != 0);
+  CHECK(range_m(1) == Approx(apart_m).epsilon(1e-6));
+  CHECK((flags(2) & kValid) != 0);
+  CHECK(range_m(2) > apart_m + 45.0);
+  CHECK(range_m(2) < apart_m + 50.1);
+  CHECK(range_m(3) == Approx(50.0).epsilon(1e-6));
+  CHECK((flags(4) & kValid) == 0);  // of nobody
 }
 
 TEST_CASE("F15 questions beyond a datagram wait, beyond a thousand they are counted", "[cigi]") {
