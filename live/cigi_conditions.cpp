@@ -36,7 +36,7 @@ CigiConditions::CigiConditions(const scenes::Scene& own)
       own_sensor_(own.description.sensor) {}
 
 void CigiConditions::reset() {
-  sensor_ = {};
+  sensor_ = sensor_in_force_ = {};
   view_ = {};
   response_.reset();
   weather_.reset();
@@ -45,6 +45,25 @@ void CigiConditions::reset() {
 }
 
 CigiConditions::Changes CigiConditions::changes() { return std::exchange(changes_, {}); }
+
+void CigiConditions::settle(const session::SensorSettings& tried, bool is_in_force) {
+  using Settings = session::SensorSettings;
+  if (is_in_force) {
+    sensor_in_force_ = tried;
+    return;
+  }
+  // What came meanwhile stays.
+  const auto take_back = [&](auto member) {
+    if (sensor_.*member == tried.*member) sensor_.*member = sensor_in_force_.*member;
+  };
+  take_back(&Settings::boresight_elevation_rad);
+  take_back(&Settings::stabilised);
+  take_back(&Settings::low_dB);
+  take_back(&Settings::high_dB);
+  take_back(&Settings::cscope_mode);
+  take_back(&Settings::noise_figure);
+  if (changes_.sensor) changes_.sensor = sensor_;
+}
 
 bool CigiConditions::take(const cigi::WeatherControl& packet) {
   constexpr std::uint8_t kFog = 0, kRain = 4, kSnow = 5;
@@ -115,23 +134,29 @@ bool CigiConditions::take(const cigi::SurfaceConditions& packet) {
   return true;
 }
 
+bool CigiConditions::set_levels(double gain, double level) {
+  constexpr double kOwn = 0.5;
+  const sensors::Display& own = own_sensor_.display;
+  if (own.mapping == sensors::Display::Mapping::seed) return gain == kOwn && level == kOwn;
+  const double own_span_dB = own.high_dB - own.low_dB;
+  const double span_dB = own_span_dB * std::pow(4.0, kOwn - gain);
+  const double middle_dB = (own.low_dB + own.high_dB) / 2 + (kOwn - level) * own_span_dB;
+  sensor_.low_dB = middle_dB - span_dB / 2;
+  sensor_.high_dB = middle_dB + span_dB / 2;
+  return true;
+}
+
 bool CigiConditions::take(const cigi::SensorControl& packet) {
   view_.on = packet.on;
   view_.black_hot = packet.black_hot;
   response_.reset();
   if (packet.on && packet.track_mode != 0)
     response_ = {packet.view, packet.sensor, packet.extended_response};
-  const sensors::Display& own = own_sensor_.display;
-  const double own_span_dB = own.high_dB - own.low_dB;
-  const double span_dB = own_span_dB * std::pow(4.0, 0.5 - share(packet.gain));
-  const double middle_dB =
-      (own.low_dB + own.high_dB) / 2 + (0.5 - share(packet.level)) * own_span_dB;
-  sensor_.low_dB = middle_dB - span_dB / 2;
-  sensor_.high_dB = middle_dB + span_dB / 2;
   sensor_.noise_figure =
       own_sensor_.receiver.noise_figure * std::pow(10.0, 2.0 * share(packet.noise));
+  const bool has_levels = set_levels(share(packet.gain), share(packet.level));
   changes_.sensor = sensor_;
-  return !packet.line_dropout && !packet.automatic_gain;
+  return has_levels && !packet.line_dropout && !packet.automatic_gain;
 }
 
 bool CigiConditions::take(const cigi::ComponentControl& packet, std::uint32_t host_frame) {

@@ -7,8 +7,8 @@
 // 20, 50, snow 0.5, 1, 2, 4, 8 mm/h. Atmosphere Control sets temperature, humidity and pressure.
 // Terrestrial Surface Conditions with scope global: 0 dry, 1 wet, 2 dry snow, 3 wet snow.
 // Sensor Control: the scene's own levels are gain 0.5 and level 0.5. Gain g gives the display a span of
-// 4^(0.5 - g) times its own, level l moves it by (0.5 - l) of it: brighter above 0.5. Noise n
-// multiplies the noise figure by 10^(2 n): 0 to 20 dB.
+// 4^(0.5 - g) times its own, level l moves it by (0.5 - l) of it: brighter above 0.5; a display of mapping
+// "seed" has no levels to set. Noise n multiplies the noise figure by 10^(2 n): 0 to 20 dB.
 // Components of class sensor (3): 1 tilt, state 1 with the angle in degrees as a float in the first
 // word, state 0 the scene's own; 2 stabilisation, state 1 on and 0 off; 3 the C-scope's heights,
 // state 0 true elevation, 1 flat earth, 2 shadow. Event Notification tells each that is in force: the
@@ -57,6 +57,9 @@ class CigiConditions {
   std::vector<std::string> settle(const scenes::Scene& now);
 
   Changes changes();
+  // Whether what changes() gave for the sensor is in force. What was refused is forgotten, or it would be
+  // refused again with all that comes later.
+  void settle(const session::SensorSettings& tried, bool is_in_force);
   const CigiView& view() const { return view_; }
   // Of a sensor whose host asked for its tracker.
   const std::optional<feeds::cigi::SensorResponse>& response() const { return response_; }
@@ -64,13 +67,16 @@ class CigiConditions {
  private:
   using Edit = std::function<void(atmosphere::Weather&)>;
 
+  // Gives false where the display has none to set and they are not its own.
+  bool set_levels(double gain, double level);
+
   atmosphere::Weather own_weather_;
   materials::SurfaceState own_surfaces_;
   sensors::Sensor own_sensor_;
   std::vector<Edit> edits_;                     // of the message
   std::optional<atmosphere::Weather> weather_;  // the host's, once it said anything
   Changes changes_;
-  session::SensorSettings sensor_;
+  session::SensorSettings sensor_, sensor_in_force_;  // the host's
   CigiView view_;
   std::optional<feeds::cigi::SensorResponse> response_;
 };

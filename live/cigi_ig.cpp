@@ -236,7 +236,11 @@ void CigiIg::apply(CigiConditions::Changes& changes) {
   };
   if (changes.weather) try_to([&] { session_.set(*changes.weather); });
   if (changes.surfaces) try_to([&] { session_.set(*changes.surfaces); });
-  if (changes.sensor && !try_to([&] { session_.set(*changes.sensor); })) changes.events.clear();
+  if (!changes.sensor) return;
+  const bool is_set = try_to([&] { session_.set(*changes.sensor); });
+  if (!is_set) changes.events.clear();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  conditions_.settle(*changes.sensor, is_set);
 }
 
 std::int8_t CigiIg::wanted_database() const {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "core/files.h"
 #include "core/units.h"
 #include "tests/live/cigi_station.h"
 
@@ -65,6 +66,41 @@ TEST_CASE("Gain, level and noise of a host set the display's levels and the nois
   // What is asked for and not there is counted: automatic gain, dropped lines.
   station.hear(message(4, {sensor_control(1 | 8, 0.5F, 0.5F, 0.0F)}));
   CHECK(all_of(station.told().unused_packets) == 1);
+}
+
+// A display without levels to set, and a receiver that can have no more noise: what was refused was refused
+// again with every switch that came later.
+TEST_CASE("Switches work after a control that the sensor cannot follow", "[cigi]") {
+  const tests::TemporaryFolder folder;
+  const std::string file =
+      core::read_file(std::string(FANBEAM_SOURCE_DIR) + "/sensors/hivision.toml", 1 << 20);
+  folder.write("noisy.toml",
+               tests::replaced(file, "noise_figure_dB = 6.0", "noise_figure_dB = 50.0"));
+  for (const bool seed : {true, false}) {
+    INFO(seed);
+    const auto session =
+        tests::live_session(folder, tests::kSmallScene + "\n[sensor]\nfile = \"" +
+                                        (seed ? "hivision-seed.toml" : "noisy.toml") + "\"\n");
+    CigiIg ig(*session, core::VerticalDatum::scene);
+    const double own_noise_figure = session->scene()->description.sensor.receiver.noise_figure;
+    const auto told = [&](std::uint32_t frame, const Bytes& packet) {
+      ig.take(message(frame, {packet}), "host");
+      return packets_in(ig.begin_frame());
+    };
+    // 20 dB more noise; of refused ones an IG Message tells.
+    CHECK(told(1, sensor_control(1, 0.5F, 0.5F, 1.0F)).size() == (seed ? 1 : 2));
+    const double noise_figure = session->scene()->description.sensor.receiver.noise_figure;
+    CHECK(noise_figure == Approx(seed ? 100.0 * own_noise_figure : own_noise_figure));
+    const auto event = told(2, component(1, 1, -2.0F));
+    REQUIRE(event.size() == 2);
+    CHECK(event[1].first == 116);
+    CHECK(session->scene()->description.sensor.antenna.boresight_elevation_rad ==
+          core::radians(-2.0));
+    CHECK(told(3, sensor_control(1, 0.7F, 0.5F, 0.0F)).size() == 1);
+    live::Status status;
+    ig.tell(status);
+    CHECK(all_of(status.unused_packets) == (seed ? 1 : 0));
+  }
 }
 
 TEST_CASE("A sensor whose tracker is asked for searches, in every frame until it is off",
