@@ -16,7 +16,7 @@ FrameMaker::FrameMaker(session::Session& session, Hub& hub, const ChannelSetting
       hub_(hub),
       settings_(settings),
       status_(hub.status()),
-      number_(status_.frames) {
+      number_(settings.newest_number) {
   const std::shared_ptr<const scenes::Scene> scene = session.scene();
   status_.scene = scene->description.name;
   status_.caster = renderer::name_of(scene->caster.chosen);

@@ -26,6 +26,7 @@ struct ChannelSettings {
   bool keep_received = false;  // LiveFrame::received_W
   // Processor time that this process spent on other things than frames, s; none: it does not.
   std::function<double()> beside_s{};
+  std::uint64_t newest_number = 0;  // that was shown before; those to come go on from it
 };
 
 class FrameMaker {

@@ -67,7 +67,7 @@ struct Continued {
   Databases databases;
   Sinks sinks;
   Clock::time_point begin = Clock::now();
-  std::uint64_t frames = 0;
+  std::uint64_t frames = 0, newest_number = 0;
   std::uint16_t page_port = 0;  // 0: none yet
   CigiStation station{};
 };
@@ -140,12 +140,14 @@ class LiveRun {
     ChannelSettings settings{rate_Hz_, samples(), begin, journal_ ? &*journal_ : nullptr};
     settings.dress = listener_.dress();
     settings.keep_received = wiring_.to.want_received();
+    settings.newest_number = continued_.newest_number;
     if (settings_.threads > 0) settings.threads = static_cast<unsigned>(settings_.threads);
     if (quality) settings.beside_s = [&quality] { return quality->processor_s(); };
     std::optional<Farewell> farewell;
     if (listens) farewell.emplace(listener_, network_);
     fly_until(end, asked, settings, each_frame);
     continued_.frames = hub_.status().frames;
+    if (const auto newest = hub_.newest()) continued_.newest_number = newest->number;
   }
 
  private:

@@ -54,3 +54,21 @@ TEST_CASE("F13 a second without a pose shows the last picture once more, as out 
     CHECK(live::picture_to_show(stale, scope).pixels != pixels);
   }
 }
+
+// A number runs ahead of the frames with each picture that is shown once more: readers of shared memory, who take
+// numbers that rise, missed as many frames of the next scene.
+TEST_CASE("Frames of a scene that follows another go on from its newest number", "[channel]") {
+  const tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  live::Hub hub;
+  live::Status before;
+  before.frames = 66;
+  hub.tell(before);
+  core::StopSource stop;
+  live::run_lockstep(
+      *session, live::circle(*session->scene()), {.samples = 1.0, .newest_number = 70}, hub,
+      [&](live::Status&) { stop.request(); }, stop.token());
+  REQUIRE(hub.newest());
+  CHECK(hub.newest()->number == 71);
+  CHECK(hub.status().frames == 67);
+}

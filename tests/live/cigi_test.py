@@ -219,9 +219,17 @@ class Cigi(unittest.TestCase):
         base = shutil.copytree(shipped, os.path.join(folder.name, "base"))
         with open(os.path.join(base, "scene.toml"), "a", encoding="utf-8") as file:
             file.write('[[database]]\nnumber = 2\nscene = "obstacle-field"\n[[database]]\nnumber = 3\nscene = "nowhere"\n')
-        host = self.start("--rate", "8", scene=base)
+        shared = f"fanbeam-cigi-{os.getpid()}"
+        host = self.start("--rate", "8", "--to", f"shm:{shared}", scene=base)
         self.ports = [host.port]
-        told, numbers = [], []
+        told, numbers, shown = [], [], []
+
+        def look():
+            try:
+                with open(f"/dev/shm/{shared}", "rb") as file:
+                    shown.append(struct.unpack_from("<Q", file.read(112), 104)[0])
+            except (FileNotFoundError, struct.error):
+                pass  # between two scenes
 
         def ask(database, until):
             end = time.monotonic() + 60
@@ -231,6 +239,7 @@ class Cigi(unittest.TestCase):
                     packets = host.receive()
                 except TimeoutError:
                     continue
+                look()
                 numbers.append(struct.unpack_from("<I", packets[0], 8)[0])
                 told.append(struct.unpack_from("<b", packets[0], 3)[0])
                 texts = [packet[4:].rstrip(b"\0").decode() for packet in packets if packet[0] == 117]
@@ -238,7 +247,14 @@ class Cigi(unittest.TestCase):
                     return texts
             self.fail(f"database {database} in vain: {told}")
 
-        ask(1, lambda database, _: database == 1)
+        # Each silence shows a picture once more, with a number of its own.
+        for _ in range(3):
+            ask(1, lambda database, _: database == 1)
+            end = time.monotonic() + 1.4
+            while time.monotonic() < end:
+                host.receive()
+        look()
+        self.assertGreater(shown[-1], self.asked("api/status")["frames"])
         ask(2, lambda database, _: database == -2)
         ask(2, lambda database, _: database == 2)
         self.assertEqual(self.asked("api/status")["scene"], "obstacle-field")
@@ -248,6 +264,8 @@ class Cigi(unittest.TestCase):
         ask(1, lambda database, _: database == 1)
         self.assertEqual(self.asked("api/status")["scene"], "flat-grass")
         self.assertEqual(numbers, sorted(set(numbers)), "frame numbers go on")
+        shown = [number for number in shown if number > 0]
+        self.assertEqual(shown, sorted(shown), "in shared memory too")
         seen = [int(row[0]) for row in self.tshark(host, "cigi.sof.db_number") if row[0]]
         self.assertLessEqual({1, 2, -2, -128}, set(seen))
 
