@@ -113,17 +113,18 @@ Json sensor_json(const sensors::Sensor& sensor) {
           {"high_dB", grey.high_dB()}};
 }
 
+std::optional<double> told_visibility_m(const atmosphere::Weather& weather) {
+  if (weather.visibility_m || !(weather.liquid_water_g_per_m3.value_or(0.0) > 0.0))
+    return weather.visibility_m;
+  return atmosphere::visibility_m(weather.fog_water_model, *weather.liquid_water_g_per_m3);
+}
+
 Json weather_json(const atmosphere::Weather& weather) {
-  Json result{{"rain_rate_mm_per_h", weather.rain_rate_mm_per_h},
-              {"snow_rate_mm_per_h", weather.snow_rate_mm_per_h},
-              {"visibility_m", nullptr}};
-  // Of fog that is told by its water, what has that water: a POST of this changes nothing.
-  if (weather.visibility_m)
-    result["visibility_m"] = *weather.visibility_m;
-  else if (weather.liquid_water_g_per_m3.value_or(0.0) > 0.0)
-    result["visibility_m"] =
-        atmosphere::visibility_m(weather.fog_water_model, *weather.liquid_water_g_per_m3);
-  return result;
+  const std::optional<double> visibility_m = told_visibility_m(weather);
+  return {{"rain_rate_mm_per_h", weather.rain_rate_mm_per_h},
+          {"snow_rate_mm_per_h", weather.snow_rate_mm_per_h},
+          {"visibility_m", visibility_m ? Json(*visibility_m) : Json(nullptr)},
+          {"melting_layer", atmosphere::precipitation_layers(weather).melting}};
 }
 
 Json truth_json(const CellTruth& cell) {

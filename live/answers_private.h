@@ -21,6 +21,8 @@ Json map_json(const scenes::Scene& scene);
 Json plan_json(const scenes::Scene& scene);
 Json sensor_json(const sensors::Sensor& sensor);
 Json weather_json(const atmosphere::Weather& weather);
+// As weather_json has it: of fog that is told by its water, what goes with that, as far as it goes with any.
+std::optional<double> told_visibility_m(const atmosphere::Weather& weather);
 Json truth_json(const CellTruth& cell);
 
 }  // namespace fanbeam::live

@@ -97,10 +97,19 @@ void refuse_others(const core::JsonNode& root, std::initializer_list<const char*
 }
 
 void set_weather(session::Session& session, const core::JsonNode& root) {
-  refuse_others(root, {"visibility_m", "rain_rate_mm_per_h", "snow_rate_mm_per_h"});
+  refuse_others(root,
+                {"visibility_m", "rain_rate_mm_per_h", "snow_rate_mm_per_h", "melting_layer"});
   atmosphere::Weather weather = session.scene()->weather;
-  weather.visibility_m = root.member("visibility_m").number({10.0, 100e3});
-  weather.liquid_water_g_per_m3.reset();
+  // Posted back as it is told, fog that is told by its water keeps it to the digit.
+  if (const auto visibility_m = root.member("visibility_m").number({10.0, 100e3});
+      visibility_m != told_visibility_m(weather)) {
+    weather.visibility_m = visibility_m;
+    weather.liquid_water_g_per_m3.reset();
+  }
+  const bool melts = atmosphere::precipitation_layers(weather).melting;
+  if (const core::JsonNode told = root.member("melting_layer");
+      told.flag().value_or(melts) != melts)
+    told.error(core::ErrorClass::unsupported, "as it is told: the scene's own");
   weather.rain_rate_mm_per_h =
       root.required("rain_rate_mm_per_h").number({0.0, 300.0}).value_or(0.0);
   weather.snow_rate_mm_per_h = root.member("snow_rate_mm_per_h").number({0.0, 50.0}).value_or(0.0);

@@ -11,7 +11,8 @@
 //                            the hub has no more
 //   GET  /api/sensor         axes of the pictures; POST sets tilt_deg, low_dB, high_dB
 //   GET  /api/weather        POST sets visibility_m (none: no fog), rain_rate_mm_per_h and
-//                            snow_rate_mm_per_h (none: no snow)
+//                            snow_rate_mm_per_h (none: no snow); melting_layer tells whether rain
+//                            and snow may be there together
 //
 // Answers of /api are JSON (docs/live.md has the keys). A POST with anything wrong in it changes
 // nothing and is answered 422 with all problems: code, field, value, expected.

@@ -33,7 +33,8 @@ std::string weather_body(const feeds::AircraftState& state, const atmosphere::We
   const double snow = rate_mm_per_h(state.snow_norm, 7.0, 2.2, now.snow_rate_mm_per_h);
   const bool rain_told = state.rain_norm.has_value(), snow_told = state.snow_norm.has_value();
   const bool rain_counts = rain_told == snow_told ? rain >= snow : rain_told;
-  const bool both = rain > 0.0 && snow > 0.0 && (rain_told || snow_told);
+  const bool both =
+      rain > 0.0 && snow > 0.0 && (rain_told || snow_told) && !body["melting_layer"].get<bool>();
   body["rain_rate_mm_per_h"] = both && !rain_counts ? 0.0 : rain;
   body["snow_rate_mm_per_h"] = both && rain_counts ? 0.0 : snow;
   if (state.visibility_m || body["visibility_m"].is_null()) body.erase("visibility_m");

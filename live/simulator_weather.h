@@ -7,8 +7,8 @@
 // n beyond 0 to 1 counts as its end. So a rate is good to its class, a factor of two or more.
 // Fog is there below 1000 m of visibility (WMO's definition), with the water that the scene's fog
 // model gives it; haze and what rain takes of the view is none. Where both fall, what falls more
-// counts: dry snow has no rain beside it (atmosphere/weather.h). What a protocol does not tell stays as it is, but
-// for rain or snow beside what it tells to fall.
+// counts: dry snow has no rain beside it, unless the scene has a melting layer between them (atmosphere/weather.h).
+// What a protocol does not tell stays as it is, but for rain or snow that cannot be beside what it tells to fall.
 #pragma once
 
 #include <optional>

@@ -330,7 +330,8 @@ class Page(unittest.TestCase):
         self.assertEqual(self.page.find_element("id", "raintold").text, "50 mm/h")
         self.wait(lambda: self.far_mean() < dry - 20, "darker picture")
         weather = self.js("fetch('/api/weather').then(answer => answer.json())")
-        self.assertEqual(weather, {"rain_rate_mm_per_h": 50, "snow_rate_mm_per_h": 0, "visibility_m": 300})
+        self.assertEqual(weather, {"rain_rate_mm_per_h": 50, "snow_rate_mm_per_h": 0, "visibility_m": 300,
+                                   "melting_layer": False})
         self.page.find_element("css selector", "summary").click()
         rows = self.js("[...document.querySelectorAll('#plan tr')].map(row =>"
                        " [row.cells[0].textContent, row.cells[1].textContent])")
@@ -338,6 +339,16 @@ class Page(unittest.TestCase):
         self.keep("live-rain")
         rain.send_keys(Keys.HOME)
         self.wait(lambda: self.far_mean() > dry - 10, "dry picture")
+
+    def test_a_slider_takes_the_other_away_where_both_cannot_be(self):
+        self.page.execute_script("window.posted = []; post = async (path, body) => { posted.push(body); }")
+        for melts in (False, True):
+            self.page.execute_script("weather = { rain_rate_mm_per_h: 4, snow_rate_mm_per_h: 2, visibility_m: null,"
+                                     " melting_layer: arguments[0] }; posted = [];"
+                                     " byId('rain').value = 5; byId('rain').dispatchEvent(new Event('change'));"
+                                     " byId('rain').value = 4; byId('snow').value = 3; byId('snow').dispatchEvent(new Event('change'));", melts)
+            rates = self.js("posted.map(body => [body.rain_rate_mm_per_h, body.snow_rate_mm_per_h])")
+            self.assertEqual(rates, [[5, 2], [5, 3]] if melts else [[5, 0], [0, 3]])
 
     def test_keys_change_colours_and_marks(self):
         body = self.page.find_element("css selector", "body")

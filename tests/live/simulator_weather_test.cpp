@@ -63,6 +63,15 @@ TEST_CASE("Dry snow has no rain beside it, and haze is no fog", "[simulator_weat
   CHECK(sleet["rain_rate_mm_per_h"] == 0.0);
   CHECK(sleet["snow_rate_mm_per_h"] > 0.0);
   CHECK_FALSE(both.contains("visibility_m"));
+  // Unless it melts on its way down.
+  feeds::AircraftState state;
+  state.rain_norm = 0.9;
+  state.snow_norm = 0.2;
+  atmosphere::Weather melting;
+  melting.melting_height_m = 1500.0;
+  const json layers = json::parse(live::weather_body(state, melting));
+  CHECK(layers["rain_rate_mm_per_h"] == both["rain_rate_mm_per_h"]);
+  CHECK(layers["snow_rate_mm_per_h"] == body_of(9000.0, 0.0, 0.2)["snow_rate_mm_per_h"]);
   CHECK_FALSE(body_of(1000.0, {}, {}).contains("visibility_m"));
   CHECK(body_of(347.0, {}, {})["visibility_m"] == 350.0);
   CHECK(body_of(0.0, {}, {})["visibility_m"] == 10.0);
