@@ -109,6 +109,7 @@ Json sensor_json(const sensors::Sensor& sensor) {
           {"cscope_top_deg", core::degrees(display.cscope_top_rad)},
           {"cscope_span_deg", core::degrees(display.cscope_span_rad)},
           {"tilt_deg", core::degrees(sensor.antenna.boresight_elevation_rad)},
+          {"mounting_yaw_deg", core::degrees(sensor.mounting.yaw_rad)},
           {"low_dB", grey.low_dB()},
           {"high_dB", grey.high_dB()}};
 }

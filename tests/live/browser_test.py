@@ -268,6 +268,28 @@ class Page(unittest.TestCase):
         self.assertNotEqual(self.bright("planview"), outlined)
         self.keep("live-plan")
 
+    def test_the_plan_view_of_a_sensor_that_looks_aside_is_turned_with_it(self):
+        self.page.find_element("id", "freeze").click()
+        self.page.execute_script(
+            "window.corners = []; const line = CanvasRenderingContext2D.prototype.lineTo;"
+            " CanvasRenderingContext2D.prototype.lineTo = function (x, y) {"
+            " if (this.canvas.id === 'planview') corners.push(Math.round(x), Math.round(y)); line.call(this, x, y); };")
+
+        def drawn(heading_deg, yaw_deg):
+            return self.page.execute_script(
+                "corners = []; state.frame.head.heading_deg = arguments[0];"
+                " state.sensor = { ...state.sensor, mounting_yaw_deg: arguments[1] }; tell_mounting(); draw_plan();"
+                " return [corners, byId('planhead').textContent, axes('bscope').words(0.5, 0.5)];", heading_deg, yaw_deg)
+        ahead, head, words = drawn(264, 0)
+        self.assertEqual(head, "Plan view: nose up")
+        self.assertRegex(words, r"azimuth 0\.0°$")
+        aside, head, words = drawn(264, 10)
+        self.assertEqual(head, "Plan view: antenna up, nose 10.0° to its left")
+        self.assertRegex(words, r"azimuth 0\.0° of the antenna$")
+        self.assertNotEqual(aside, ahead)
+        self.assertEqual(drawn(274, 0)[0], aside)
+        self.assertEqual(drawn(264, -90)[1], "Plan view: antenna up, nose 90.0° to its right")
+
     def test_a_film_is_recorded(self):
         self.page.find_element("id", "record").click()
         time.sleep(2)

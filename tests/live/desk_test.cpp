@@ -71,6 +71,19 @@ TEST_CASE("The desk answers with the page, the plan and the sensor of the sessio
   CHECK(office.desk.answer(get("")).status == 404);
 }
 
+// The plan view was turned by it against runways and trail.
+TEST_CASE("The sensor tells how far from the nose its azimuths count", "[desk]") {
+  for (const double yaw_deg : {0.0, 10.0, -90.0}) {
+    const tests::TemporaryFolder folder;
+    const auto session = tests::live_session(
+        folder, tests::kSmallScene + "\n[sensor]\nyaw_deg = " + std::to_string(yaw_deg) + "\n");
+    live::Hub hub;
+    const live::Desk desk(*session, hub);
+    const json sensor = json::parse(desk.answer(get("/api/sensor")).body);
+    CHECK(sensor["mounting_yaw_deg"].get<double>() == Approx(yaw_deg));
+  }
+}
+
 TEST_CASE("A frame is the PNG of its picture", "[desk]") {
   Office office;
   auto frame = std::make_shared<live::LiveFrame>();
