@@ -379,6 +379,46 @@ class Page(unittest.TestCase):
         body.send_keys("r")
         self.assertEqual(self.page.find_element("id", "rings").get_attribute("aria-pressed"), "false")
 
+    def test_letters_are_keys_with_a_slider_in_focus_too(self):
+        self.wait(lambda: self.js("state.past.length") >= 3, "three frames")
+        back = self.page.find_element("id", "back")
+        back.send_keys(Keys.ARROW_LEFT, Keys.ARROW_LEFT)
+        self.wait(lambda: self.js("state.frozen"), "a held frame")
+        held = self.js("state.back")
+        back.send_keys("c")
+        self.assertEqual(self.js("[state.map, state.back]"), ["viridis", held])
+        back.send_keys("n")
+        self.assertEqual(self.js("[state.frozen, state.back]"), [False, 0])
+        # Its arrows are its own, and a number's letters, if there were any.
+        gain = self.page.find_element("id", "gain")
+        gain.send_keys(Keys.ARROW_LEFT)
+        self.assertEqual(self.js("[state.gain_dB, state.frozen]"), [-1, False])
+        self.page.find_element("id", "low").send_keys("f")
+        self.assertFalse(self.js("state.frozen"))
+
+    def test_short_and_long_ranges_and_wide_scans_have_marks_that_do_not_cover_each_other(self):
+        self.page.find_element("id", "freeze").click()
+        self.page.execute_script(
+            "window.written = {}; const fill = CanvasRenderingContext2D.prototype.fillText;"
+            " CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {"
+            " (written[this.canvas.id] ||= []).push([text, x, y, this.measureText(text).width]);"
+            " fill.call(this, text, x, y); };")
+        for nearest_m, farthest_m, view_deg, step_m in ((1, 151, 150, 20), (200, 3695.08, 41, 500), (0, 20000, 41, 2000)):
+            written = self.page.execute_script(
+                "written = {}; state.sensor = { ...state.sensor, range_minimum_m: arguments[0], field_of_view_deg: arguments[2],"
+                " range_cell_m: (arguments[1] - arguments[0]) / state.sensor.range_cells };"
+                " draw('bscope'); draw_plan(); return written;", nearest_m, farthest_m, view_deg)
+            ranges = [r * step_m for r in range(-(-nearest_m // step_m), int(farthest_m / step_m + 1)) if r * step_m < farthest_m]
+            told = written["bscope"]
+            self.assertEqual([text for text, *_ in told if text.endswith(" m")], [f"{r} m" for r in ranges])
+            rings = [text for text, *_ in written["planview"] if re.fullmatch(r"[\d.]+ k?m", text)]
+            self.assertEqual(rings, [f"{r} m" if r < 1000 else f"{r / 1000:g} km" for r in ranges])
+            angles = [(x, wide) for text, x, _, wide in told if text.endswith("°")]
+            self.assertGreaterEqual(len(angles), 3)
+            for (x, wide), (after, _) in zip(angles, angles[1:]):
+                self.assertLess(x + wide, after)
+            self.keep(f"live-marks-{farthest_m:g}")
+
     def test_small_screens_and_large_letters_need_no_sideways_scrolling(self):
         for width, zoom in ((360, 1), (1200, 2)):
             self.page.set_window_size(width, 900)
