@@ -19,6 +19,9 @@ from selenium import webdriver
 from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.actions import interaction
+from selenium.webdriver.common.actions.action_builder import ActionBuilder
+from selenium.webdriver.common.actions.pointer_input import PointerInput
 from selenium.webdriver.common.keys import Keys
 
 FANBEAM, FOLDER = sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else None
@@ -181,6 +184,20 @@ class Page(unittest.TestCase):
         self.assertEqual(self.number(), newest - 2)
         body.send_keys("n")
         self.wait(lambda: self.number() > newest, "newer frame")
+
+    def test_a_finger_that_taps_a_picture_reads_it(self):
+        self.page.find_element("id", "freeze").click()
+        scope = self.page.find_element("id", "bscope")
+        ActionChains(self.page).move_to_element(self.page.find_element("id", "scene")).perform()
+        touch = PointerInput(interaction.POINTER_TOUCH, "finger")
+        for offset in (-120, 90):
+            before = self.page.find_element("id", "btold").text
+            tap = ActionBuilder(self.page, mouse=touch)
+            tap.pointer_action.move_to(scope, 30, offset).pointer_down().pointer_up()
+            tap.perform()
+            told = self.page.find_element("id", "btold").text
+            self.assertRegex(told, r"^range \d+ m, azimuth .*: grey \d+, \S+ dB$")
+            self.assertNotEqual(told, before)
 
     def bright(self, canvas):  # mean of what the canvas shows
         return self.js("(canvas => { const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d',"
