@@ -314,6 +314,13 @@ class Page(unittest.TestCase):
         self.wait(lambda: self.js("tape.film ? tape.film.size : 0") > 10000, "film")
         head = self.js("tape.film.slice(0, 4).arrayBuffer().then(bytes => [...new Uint8Array(bytes)])")
         self.assertEqual(head, [0x1a, 0x45, 0xdf, 0xa3], "EBML, as WebM begins")
+        # The next one takes its place in memory.
+        first = self.js("tape.url")
+        self.page.execute_script("window.left = []; const leave = URL.revokeObjectURL.bind(URL);"
+                                 " URL.revokeObjectURL = url => { left.push(url); leave(url); }; record(); record();")
+        self.wait(lambda: self.js("tape.recorder === null"), "another film")
+        self.assertEqual(self.js("left"), [first])
+        self.assertNotEqual(self.js("tape.url"), first)
 
     def test_frames_come_where_no_websocket_gets_through(self):
         script = self.page.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source":
