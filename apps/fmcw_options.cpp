@@ -140,7 +140,8 @@ void add_processing(CLI::App& command, FmcwOptions& options) {
           "Detector: mean of the cells around (ca), ordered statistic (os), greater (go) or "
           "smaller (so) of two halves' means (default os)")
       ->check(CLI::IsMember({"ca", "os", "go", "so"}));
-  add_span(command, "--cfar-guard", options.cfar_guard, "Cells on each side that it leaves out");
+  add_span(command, "--cfar-guard", options.cfar_guard,
+           "Cells on each side that it leaves out, over the windows' main lobe");
   add_span(command, "--cfar-training", options.cfar_training,
            "Cells on each side beyond them that tell the background");
   command

@@ -1,5 +1,7 @@
 #include "session/signal/radar.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -314,6 +316,12 @@ void check_detects(const FmcwRadar& radar) {
     core::throw_input_error(core::ErrorClass::range, "--chirps", radar.axes.doppler_cells,
                             "more than the " + std::to_string(window) +
                                 " Doppler cells over which --cfar-guard and --cfar-training reach");
+  if (!(radar.detection.cfar.design_probability > 0.0))
+    core::throw_input_error(
+        core::ErrorClass::range, "--cfar-guard",
+        fmt::format("{},{}", radar.detection.cfar.along_columns.guard, reach.guard),
+        "more, over the main lobe of the windows: cells in it tell nothing of "
+        "the background");
 }
 
 void check_tells_samples(const FmcwSettings& options) {

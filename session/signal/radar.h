@@ -49,7 +49,8 @@ FmcwRadar fmcw_radar(const FmcwSettings& options);
 
 // E-UNSUPPORTED for a waveform that has no maps, detections or cells.
 void check_has_maps(const FmcwRadar& radar);
-// Beside that E-RANGE where the detector's window would meet itself around the Doppler cells.
+// Beside that E-RANGE where the detector's window would meet itself around the Doppler cells, or its guard cells leave
+// some of the windows' main lobe to the background.
 void check_detects(const FmcwRadar& radar);
 
 // Recorded samples had a rate of their own, which decides their ranges: E-REF where the settings of a chirp

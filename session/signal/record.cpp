@@ -206,8 +206,9 @@ std::string fmcw_run_json(const scenes::Scene& scene, const FmcwSettings& option
     json["cfar"] = {{"kind", std::string(signal::name(radar.detection.cfar.kind))},
                     {"false_alarm_probability", options.false_alarm_probability},
                     {"guard", {options.cfar_guard.range, options.cfar_guard.doppler}},
-                    {"training", {options.cfar_training.range, options.cfar_training.doppler}},
-                    {"design_probability", radar.detection.cfar.design_probability}};
+                    {"training", {options.cfar_training.range, options.cfar_training.doppler}}};
+    if (const double design = radar.detection.cfar.design_probability; design > 0.0)
+      json["cfar"]["design_probability"] = design;
     json["processing"] = processing_json(options, radar);
   }
   if (!frames.empty() && frames.front().scan) json["bscope"] = scan_json(scene.description.sensor);

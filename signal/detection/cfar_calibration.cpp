@@ -91,7 +91,7 @@ double exact_averaging_factor(const Matrix& correlation, double wanted) {
 }
 
 // P(sum over looks of |mean + noise|^2 > t), noise of variance 1, snr the sum of |mean|^2:
-// a Poisson mixture of gamma tails (sensors/receiver/detection.h), for small snr.
+// a Poisson mixture of gamma tails (sensors/receiver/detection.h), for snr of some hundreds: beyond, e^-snr is 0.
 double exceedance(double snr, int looks, double t) {
   double term = std::exp(-t);  // e^-t t^i / i!
   double tail = term;
@@ -206,6 +206,7 @@ CfarCalibration drawn_calibration(const CfarSettings& settings,
   const double n = static_cast<double>(offsets.size());
   const double tilt = useful_tilt(looks, n, settings.design_probability);
   const BackgroundDraw drawer(settings, offsets, correlation, looks, tilt);
+  if (drawer.variance() < kLeastUntold) return {};
   const double most = std::clamp(4e7 / (n * n * looks), 4000.0, 100000.0);
   std::vector<Background> backgrounds(static_cast<std::size_t>(most));
   constexpr std::size_t kBlock = 500;
@@ -263,6 +264,7 @@ CfarCalibration calibrated_cfar(const CfarSettings& settings, const CellCorrelat
     found.factor = exact_averaging_factor(matrix, settings.design_probability);
   else
     found = drawn_calibration(settings, offsets, matrix, looks);
+  if (!found.covered()) return found;
   if (reference.kind != CfarKind::cell_averaging)
     found.mean_estimate = drawn_mean_estimate(settings, offsets, matrix, looks);
   found.design_probability = cfar_false_alarm_probability(reference, found.factor);

@@ -269,6 +269,25 @@ TEST_CASE("What a B-scope alone does not look at is refused, all of it", "[fmcw]
   CHECK_FALSE(fs::exists(folder.path() / "out"));
 }
 
+// Every cell was a detection, or a field that nobody had set was refused.
+TEST_CASE("Guard cells within the windows' main lobe are refused where cells are detected",
+          "[fmcw]") {
+  const tests::TemporaryFolder folder;
+  const std::string out = " -o " + tests::quoted(folder.path() / "out");
+  for (const char* detector : {"--cfar os --cfar-guard 0", "--cfar go --cfar-guard 0,1"}) {
+    const auto run = tests::run_fanbeam(std::string("fmcw street-76ghz -q --products detections ") +
+                                        detector + out);
+    INFO(run.output);
+    CHECK(run.exit_code == 2);
+    CHECK(run.output.find("--cfar-guard = 0,") != std::string::npos);
+  }
+  CHECK_FALSE(fs::exists(folder.path() / "out"));
+  const auto beat =
+      tests::run_fanbeam("fmcw street-76ghz -q --products beat --chirps 16 --cfar-guard 0" + out);
+  INFO(beat.output);
+  CHECK(beat.exit_code == 0);
+}
+
 TEST_CASE("Real samples are not read as complex ones", "[track]") {
   const tests::TemporaryFolder folder;
   const fs::path radar = folder.write("radar.toml", kRadar);
