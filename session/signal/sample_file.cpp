@@ -37,8 +37,8 @@ Axis axis_of(const std::vector<std::string>& axes, const std::vector<std::size_t
 }
 
 // Every transmitter's chirps one after the other, as recorders keep them.
-bool in_turn(const std::vector<std::string>& axes, int transmitters) {
-  return transmitters > 1 && !has(axes, "channel") && !has(axes, "transmitter");
+bool in_turn(const std::vector<std::string>& axes, int slots) {
+  return slots > 1 && !has(axes, "channel") && !has(axes, "transmitter");
 }
 
 }  // namespace
@@ -70,6 +70,7 @@ SampleFiles::SampleFiles(std::vector<std::filesystem::path> files, const FmcwRad
   real_ = !radar.waveform.complex_baseband;
   transmitters_ = static_cast<int>(radar.array.transmitters_m.size());
   receivers_ = static_cast<int>(radar.array.receivers_m.size());
+  slots_ = radar.array.slots();
   core::ProblemList problems;
   correct(problems);
   for (std::filesystem::path& path : files)
@@ -138,10 +139,10 @@ bool SampleFiles::fits(const File& file, core::ProblemList& problems) const {
       refuse(fmt::format("{} along {}", length(name), name),
              fmt::format("{} or more, as the waveform has", least));
   };
-  const auto exactly = [&](const char* name, int count) {
+  const auto exactly = [&](const char* name, int count, const char* hint = "") {
     if (length(name) != static_cast<std::size_t>(count))
       refuse(fmt::format("{} along {}", length(name), name),
-             fmt::format("{}, as the array has", count));
+             fmt::format("{}, as the array has{}", count, hint));
   };
   const bool is_complex = file.header.type.find('c') != std::string::npos;
   good = is_complex != real_;
@@ -151,13 +152,16 @@ bool SampleFiles::fits(const File& file, core::ProblemList& problems) const {
                    real_ ? "real samples, as the radar file says (real = true)"
                          : "complex samples, or real = true in the radar file's [waveform]");
   at_least("sample", static_cast<std::size_t>(shape_.samples));
-  const bool turns = in_turn(layout_.axes, transmitters_);
+  const bool turns = in_turn(layout_.axes, slots_);
   at_least("chirp", static_cast<std::size_t>(shape_.chirps) *
                         static_cast<std::size_t>(turns ? transmitters_ : 1));
   if (has(layout_.axes, "channel")) {
     exactly("channel", shape_.channels);
   } else {
-    if (!turns) exactly("transmitter", transmitters_);
+    if (!turns) {
+      exactly("transmitter", transmitters_,
+              has(layout_.axes, "transmitter") ? "" : " (waveform.slots where they take turns)");
+    }
     exactly("receiver", receivers_);
   }
   return good;
@@ -175,7 +179,7 @@ signal::FloatCube SampleFiles::frame(int index) const {
   const std::size_t count = file->header.count() / (outermost ? frames.length : 1);
   const auto values = core::read_npy(file->path, file->header, outermost ? left * count : 0, count);
   const std::size_t first = outermost ? 0 : left * frames.stride;
-  const bool turns = in_turn(layout_.axes, transmitters_);
+  const bool turns = in_turn(layout_.axes, slots_);
   signal::FloatCube cube(shape_);
   for (int c = 0; c < shape_.channels; ++c) {
     const auto t = static_cast<std::size_t>(c / receivers_),

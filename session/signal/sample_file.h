@@ -2,8 +2,8 @@
 //
 // What the axes mean is text, outermost first: frame, chirp, transmitter, receiver, channel, sample.
 //   channel      transmitter * receivers + receiver; instead of transmitter and receiver
-//   chirp        of one transmitter; where the array has several in time division and the axes name
-//                neither channel nor transmitter, the chirps of all of them in turn
+//   chirp        of one transmitter; where the array has several in time division (slots of its waveform) and
+//                the axes name neither channel nor transmitter, the chirps of all of them in turn
 //   missing      an axis of length 1
 // The default, "channel, chirp, sample", is what product beat writes, a frame a file; with a fourth axis
 // in front frames follow each other in one file. Types <c8, <c16, and <f4, <f8, <i2 for real samples.
@@ -54,7 +54,7 @@ class SampleFiles {
   SampleLayout layout_;
   std::vector<std::complex<float>> corrections_;  // of each channel
   signal::CubeShape shape_;
-  int transmitters_ = 1, receivers_ = 1;
+  int transmitters_ = 1, receivers_ = 1, slots_ = 1;
   bool real_ = false;
   int frames_ = 0;
 };

@@ -300,6 +300,23 @@ TEST_CASE("Real samples are not read as complex ones", "[track]") {
   CHECK(run.output.find("real = true") != std::string::npos);
 }
 
+// Taken apart as if they took turns, they gave three times the speed without a word.
+TEST_CASE("Chirps of transmitters that send at once are not taken for each other's", "[track]") {
+  const tests::TemporaryFolder folder;
+  std::string text = kRadar;
+  text.replace(text.find("transmitters = 1"), 16, "transmitters = 3");
+  const fs::path radar =
+      folder.write("radar.toml", text + "[samples]\naxes = \"frame, chirp, receiver, sample\"\n");
+  core::write_npy(folder.path() / "turns.npy", {1, 48, 4, 80},
+                  std::vector<std::complex<float>>(15360, {1e-6F, 0.0F}));
+  const auto run =
+      track(folder.path() / "turns.npy", folder.path() / "out", "--radar " + tests::quoted(radar));
+  INFO(run.output);
+  CHECK(run.exit_code == 3);
+  CHECK(run.output.find("1 along transmitter: expected 3, as the array has (waveform.slots") !=
+        std::string::npos);
+}
+
 TEST_CASE("A radar file and detections that are wrong are told together", "[track]") {
   const tests::TemporaryFolder folder;
   const fs::path radar = folder.write("bad.toml", std::string(kRadar) + "colour = 1\n");
