@@ -13,7 +13,8 @@
 // thresholding", ICT 2012; J. Bechter, F. Roos, M. Rahman, C. Waldschmidt, "Automotive radar
 // interference mitigation using a sparse sampling approach", EuRAD 2017.
 // Inputs: threshold above 1 as a power ratio. Echoes of one or two equal strong scatterers reach 2
-// times the median, noise of one channel 20 times in one sample of a million: the default.
+// times the median, noise of one channel 20 times in one sample of a million: the default. Noise of real samples of one
+// channel is 52.8 times its median as often: 2.64 times the threshold counts there.
 #pragma once
 
 #include <cstddef>
