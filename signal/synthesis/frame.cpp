@@ -1,5 +1,6 @@
 #include "signal/synthesis/frame.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -8,18 +9,21 @@
 namespace fanbeam::signal {
 namespace {
 
+// Starts far from 0, as those before a triangle, are rounded: a difference of two is off by more, times the number of
+// chirps, than what is left between all.
 bool is_uniform(const Frame& frame) {
   if (frame.waveform.kind == WaveformKind::sinusoidal ||
       frame.waveform.kind == WaveformKind::pulsed)
     return false;
   const Segment& first = frame.segments.front();
-  const double interval_s =
-      frame.segments.size() > 1 ? frame.segments[1].start_s - first.start_s : 0.0;
+  const double interval_s = (frame.segments.back().start_s - first.start_s) /
+                            std::max(1.0, static_cast<double>(frame.segments.size()) - 1.0);
   for (std::size_t i = 0; i < frame.segments.size(); ++i) {
     const Segment& segment = frame.segments[i];
     if (segment.start_frequency_Hz != first.start_frequency_Hz ||
         segment.slope_Hz_per_s != first.slope_Hz_per_s ||
-        std::abs(segment.start_s - first.start_s - static_cast<double>(i) * interval_s) > 1e-15)
+        std::abs(segment.start_s - first.start_s - static_cast<double>(i) * interval_s) >
+            1e-9 * first.duration_s)
       return false;
   }
   return true;

@@ -202,6 +202,24 @@ TEST_CASE("Samples of all channels together are limited before anything holds th
   CHECK_THROWS_WITH(reference_beat(waveform, 0, array, {}), Catch::Contains("E-LIMIT"));
 }
 
+// The chirps of two stages begin before 0, where starts are rounded: they were taken for uneven, and every path summed
+// for every sample.
+TEST_CASE("Thousands of chirps before a triangle are as even as a few", "[beat]") {
+  TwoStageParameters parameters;
+  const auto uniform = [&](int chirps, double ramp_s) {
+    parameters.coarse.chirps = chirps;
+    parameters.coarse.ramp_s = parameters.coarse.interval_s = ramp_s;
+    return make_frame(two_stage(parameters), 0, {}).uniform;
+  };
+  CHECK(uniform(256, 20e-6));
+  CHECK(uniform(2048, 20e-6));
+  CHECK(uniform(1000, 50e-6));
+  CHECK(uniform(65536, 20e-6));
+  Waveform waveform = chirp_sequence({});
+  waveform.segments.back().start_s += 1e-9;
+  CHECK_FALSE(make_frame(waveform, 0, {}).uniform);
+}
+
 TEST_CASE("A pulse's echo from beyond the interval comes in the next one, as in a radar",
           "[beat]") {
   PulsedParameters parameters;  // 10 us: 1499 m
