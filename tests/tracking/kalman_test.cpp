@@ -205,6 +205,27 @@ TEST_CASE("K05 a bearing across the border differs by 0.2 degrees", "[kalman]") 
   CHECK(one.residual[2] / kDegree == Approx(0.2).epsilon(0.0).margin(1e-9));
 }
 
+TEST_CASE("A state at the radar is told by nothing, one 2 mm away by its place", "[kalman]") {
+  Gaussian state;
+  state.size = 4;
+  state.mean = {0.0, 0.0, -10.0, 1.0};
+  for (int i = 0; i < 4; ++i) state.variance(i, i) = 0.01;
+  const auto seen_here = [&] {
+    return observe(state, 2, Measured::range_rate_and_azimuth, seen(5.0, -10.0, 0.1, 0.1));
+  };
+  const Gaussian before = state;
+  update(state, seen_here());
+  CHECK(std::hypot(state.mean[0] - before.mean[0], state.mean[1] - before.mean[1]) < 0.05);
+  for (int i = 0; i < 4; ++i) CHECK(std::isfinite(state.mean[static_cast<std::size_t>(i)]));
+  state = before;
+  state.mean[0] = 0.0012;
+  state.mean[1] = 0.0016;
+  const Observation near = seen_here();
+  CHECK(near.jacobian[0] == Approx(0.6));
+  CHECK(near.jacobian[1] == Approx(0.8));
+  CHECK(near.residual[2] == Approx(-std::atan2(4.0, 3.0)));
+}
+
 TEST_CASE("Gains tend to those of alpha-beta filters", "[kalman]") {
   // T 0.05 s, sa 1 m/s2, sR 0.02 m: tracking index 0.125.
   const AlphaBeta closed = steady_alpha_beta(0.125);

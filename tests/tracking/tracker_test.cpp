@@ -98,6 +98,16 @@ TEST_CASE("K03 K04 a tracker refuses what goes back in time or is no number, unc
   CHECK(tracker.tracks()[0].state == before);
 }
 
+// A car that passes straight ahead, in data of whole metres: the second frame ended the run.
+TEST_CASE("A track predicted onto the radar coasts, and the others go on", "[tracker]") {
+  Tracker tracker(settings_for(0.0));
+  tracker.update(0.0, {at(1.0, -10.0), at(60.0, -10.0)});
+  for (int frame = 1; frame < 10; ++frame) tracker.update(0.1 * frame, {at(60.0 - frame, -10.0)});
+  CHECK(confirmed(tracker) == 1);
+  for (const Track& one : tracker.tracks())
+    if (one.confirmed) CHECK(polar(one.state).range_m == Approx(51.0).epsilon(0.0).margin(0.05));
+}
+
 // 40 000 in a frame asked for 12 GB.
 TEST_CASE("A frame with more measurements than can be associated is E-LIMIT, and changes nothing",
           "[tracker]") {

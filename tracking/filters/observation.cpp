@@ -11,6 +11,8 @@
 namespace fanbeam::tracking {
 namespace {
 
+constexpr double kLeastRange_m = 1e-3;
+
 void check(const RadarMeasurement& m, int size) {
   const double values[] = {m.range_m, m.range_rate_mps, m.azimuth_rad};
   const double sigmas[][2] = {{m.range_sigma_m, m.range_systematic_m},
@@ -38,7 +40,7 @@ void check(const RadarMeasurement& m, int size) {
 void add_curvature(const Gaussian& state, Observation& observation,
                    std::array<double, kMostMeasured>& predicted) {
   const double range = predicted[0];
-  const double tx = -state.mean[1] / range, ty = state.mean[0] / range;
+  const double tx = -observation.jacobian[1], ty = observation.jacobian[0];
   const auto across = [&](int row, int column) {
     return tx * tx * state.variance(row, column) + ty * ty * state.variance(row + 1, column + 1) +
            tx * ty * (state.variance(row, column + 1) + state.variance(row + 1, column));
@@ -76,10 +78,9 @@ Observation observe(const Gaussian& state, int axes, Measured measured,
     at(0, 0) = at(1, 1) = 1.0;
   } else {
     const double x = state.mean[0], y = state.mean[1], vx = state.mean[2], vy = state.mean[3];
-    const double range = std::hypot(x, y);
-    if (!(range > 0.0))
-      core::throw_input_error(core::ErrorClass::range, "state range", range, "above 0 m");
-    const double ux = x / range, uy = y / range, rate = ux * vx + uy * vy;
+    const double distance = std::hypot(x, y), range = std::max(distance, kLeastRange_m);
+    const double ux = distance > 0.0 ? x / distance : 1.0, uy = distance > 0.0 ? y / distance : 0.0;
+    const double rate = ux * vx + uy * vy;
     predicted = {range, rate, std::atan2(y, x)};
     at(0, 0) = at(1, 2) = ux;
     at(0, 1) = at(1, 3) = uy;

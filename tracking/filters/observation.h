@@ -15,8 +15,9 @@
 // track away (M. Athans, R. P. Wishner, A. Bertolini, IEEE Trans. AC-13, 1968).
 // Neglected: the correlation of these two terms, and the second order of the azimuth.
 // observe() takes the noise alone; the tracker has put the rest into it (tracking/tracker/tracker.h).
-// Inputs: E-NONFINITE for anything not finite, E-RANGE for a negative standard deviation, a range
-// of 0 in the planar form, or azimuth for a state of one axis.
+// A planar state closer to the radar than 1 mm is taken as 1 mm away where it is divided by R, one at the radar itself as
+// straight ahead: the second order then says how little is known, and a track that passes the radar coasts.
+// Inputs: E-NONFINITE for anything not finite, E-RANGE for a negative standard deviation or azimuth for a state of one axis.
 #pragma once
 
 #include "tracking/filters/gaussian.h"
