@@ -49,6 +49,17 @@ TEST_CASE("From samples, a target is measured in every frame but those of its ga
   }
 }
 
+// 1 cm before the radar in frame 20, and behind it within the triangle: a path that synthesis refuses.
+TEST_CASE("From samples, a car through the radar has no echo, and leaves the other's",
+          "[sampled]") {
+  const SampledRadar radar(highway_radar());
+  const auto scenario = scene(2.0, 0.0, {car("A", 10.01, 0.0, -10.0), car("B", 80.0, 3.0, -10.0)});
+  REQUIRE(truth_at(scenario.targets[0], 0.0, highway_radar(), 1.0).in_view);
+  const auto seen = radar.measure(scenario, 4, 0, 20);
+  CHECK(seen.size() == 1);
+  CHECK(times_measured(scenario, 1, 20, seen) == 1);
+}
+
 // Chirps of 60 us tell speeds within 16.4 m/s apart: 65 m/s is two folds away.
 TEST_CASE("From samples, a speed is found in whatever fold it lies", "[sampled]") {
   core::HighwayRadar slow = highway_radar();

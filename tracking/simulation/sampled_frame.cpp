@@ -27,8 +27,16 @@ constexpr double kMostSpeed_mps = 70.0;
 constexpr double kWidestArray_wavelengths = 1250.0;
 constexpr int kCoarse = 0, kFine = 1;  // stages
 
+// A target that comes through the radar while it looks has no path to both ends.
+bool is_ahead(const signal::Waveform& waveform, const core::HighwayTruth& truth) {
+  const double first_s = waveform.segments.front().start_s;
+  return std::min(truth.range_m + truth.range_rate_mps * first_s,
+                  truth.range_m + truth.range_rate_mps * (first_s + waveform.duration_s())) > 0.0;
+}
+
 std::vector<signal::ScatterPath> paths_of(const core::HighwayScenario& scenario,
-                                          const core::HighwayRadar& radar, double time_s,
+                                          const core::HighwayRadar& radar,
+                                          const signal::Waveform& waveform, double time_s,
                                           const Draws& draws, const core::RandomKey& key,
                                           std::uint64_t run) {
   signal::Link link;
@@ -41,7 +49,7 @@ std::vector<signal::ScatterPath> paths_of(const core::HighwayScenario& scenario,
   for (std::size_t i = 0; i < scenario.targets.size(); ++i) {
     const core::HighwayTarget& target = scenario.targets[i];
     const core::HighwayTruth truth = truth_at(target, scenario.radar_speed_mps, radar, time_s);
-    if (!truth.in_view || is_suppressed(target, time_s)) continue;
+    if (!truth.in_view || is_suppressed(target, time_s) || !is_ahead(waveform, truth)) continue;
     const double section_m2 = target.cross_section_m2 * draws.fluctuation(target.fluctuation, i);
     if (!(section_m2 > 0.0)) continue;
     const double power_W =
@@ -159,8 +167,8 @@ std::vector<RadarMeasurement> SampledRadar::measure(const core::HighwayScenario&
   // One stream of samples for each run: seed, run and frame in one key.
   core::RandomKey key{seed + (std::uint64_t{run} << 32U), core::kStreamHighway,
                       static_cast<std::uint32_t>(frame)};
-  const auto paths =
-      paths_of(scenario, radar_, frame * radar_.frame_s, Draws(seed, run, frame), key, run);
+  const auto paths = paths_of(scenario, radar_, waveform_, frame * radar_.frame_s,
+                              Draws(seed, run, frame), key, run);
   const auto received = [&](int stage) {
     signal::FloatCube samples = signal::synthesise_beat(waveform_, stage, array_, paths);
     const double rate_Hz = waveform_.sample_rate_Hz[static_cast<std::size_t>(stage)];

@@ -25,7 +25,8 @@
 // taking turns ends: 2e-4 bins of a ramp (0.06 mm, 0.1 mm/s); 0.5 mrad of a cell's direction; of a beat
 // that holds two waves 0.2 bins, of one that may be the other target's what the two are apart; of a
 // direction that is of several, a beam evenly.
-// Neglected: what measurement_simulator.h neglects but the above; a target's turn within a frame.
+// Neglected: what measurement_simulator.h neglects but the above; a target's turn within a frame;
+// the echo of one that comes through the radar within a frame.
 // Every draw is a function of seed, run, frame and sample; the same bits for any number of threads.
 // Cost: six targets some 60 ms of processor time, a fifth of it for the receiver noise of 1.2
 // million samples.
