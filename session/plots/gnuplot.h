@@ -57,6 +57,8 @@ void write_plot(const Plot& plot, const std::filesystem::path& file);
 
 // Draws it as `name`.svg and `name`.png.
 void write_plots(const Plot& plot, const std::filesystem::path& name);
+// Those that are there of an earlier run.
+void remove_plots(const std::filesystem::path& name);
 
 // The same for what `script` tells gnuplot to draw into the path that it is given.
 void write_plot(const std::function<std::string(const std::filesystem::path&)>& script,

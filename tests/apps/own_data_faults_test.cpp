@@ -3,6 +3,8 @@
 
 #include <complex>
 #include <limits>
+#include <set>
+#include <sstream>
 
 #include "core/constants.h"
 #include "core/npy.h"
@@ -50,6 +52,36 @@ TEST_CASE("A track does not live through half a minute without frames", "[track]
   CHECK(tracks.find("\n0.9,1,") != std::string::npos);
   CHECK(tracks.find("\n30,1,") == std::string::npos);
   CHECK(tracks.find("\n30,2,") != std::string::npos);
+}
+
+// With nine digits 40 frames of Unix time had one: 1.76436e+09.
+TEST_CASE("Tables of tracks have the times of their input, Unix time too", "[track]") {
+  const tests::TemporaryFolder folder;
+  const std::string rows = car(0, 20, 1764360000.0);
+  const auto run = track(folder.write("car.csv", kTableHead + rows), folder.path() / "out");
+  INFO(run.output);
+  REQUIRE(run.exit_code == 0);
+  for (const char* table : {"out/tracks.csv", "out/measurements.csv"}) {
+    std::istringstream told(tests::bytes_of(folder.path() / table));
+    std::string row;
+    std::getline(told, row);
+    std::set<std::string> times;
+    while (std::getline(told, row)) times.insert(row.substr(0, row.find(',') + 1));
+    CHECK(times.size() == 20);
+    for (const std::string& time : times) CHECK(rows.find(time) != std::string::npos);
+  }
+}
+
+TEST_CASE("Plots of an earlier run do not stay beside other tables", "[track]") {
+  const tests::TemporaryFolder folder;
+  const fs::path csv = folder.write("car.csv", kTableHead + car(0, 10, 0.0));
+  REQUIRE(track(csv, folder.path() / "out").exit_code == 0);
+  for (const char* name : {"ranges.svg", "ranges.png", "plan.png", "notes.png"})
+    folder.write(std::string("out/") + name, "of another run");
+  REQUIRE(track(csv, folder.path() / "out").exit_code == 0);
+  for (const char* name : {"ranges.svg", "ranges.png", "plan.png"})
+    CHECK_FALSE(fs::exists(folder.path() / "out" / name));
+  CHECK(fs::exists(folder.path() / "out/notes.png"));
 }
 
 TEST_CASE("JSON frames of one time are one frame, and all that go back are told", "[track]") {

@@ -152,6 +152,7 @@ void write_own_tracks(const OwnTracks& tracks, const MeasuredSource& source,
   const Json timing = {{"measuring_ms_per_scan", 1e3 * tracks.measuring_s / tracks.frames},
                        {"tracking_ms_per_scan", 1e3 * tracks.tracking_s / tracks.frames}};
   core::write_file_atomically(folder / "timing.json", timing.dump(2) + "\n");
+  for (const char* name : {"ranges", "plan"}) remove_plots(folder / name);
   if (!plots || tracks.measured == 0) return;
   write_plots(tracks.history.ranges(source.name), folder / "ranges");
   write_plots(tracks.history.plan(source.name), folder / "plan");

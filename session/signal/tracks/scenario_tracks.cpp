@@ -180,6 +180,7 @@ void write_scenario_tracks(const core::HighwayScenario& scenario, const Scenario
                            bool plots, const fs::path& folder) {
   core::write_file_atomically(folder / "tracks.csv", tracks.tracks);
   core::write_file_atomically(folder / "measurements.csv", tracks.measurements);
+  for (const char* name : {"ranges", "errors"}) remove_plots(folder / name);
   if (!plots) return;
   write_plots(tracks.history.ranges(scenario), folder / "ranges");
   write_plots(tracks.history.errors(scenario), folder / "errors");

@@ -22,9 +22,9 @@ std::string track_cells(double time_s, const tracking::Track& track,
                         const RadarVelocity_mps& radar_velocity_mps) {
   const auto state = on_the_road(track);
   const tracking::PolarPlace place = polar(track.state);
-  return fmt::format("{:.9g},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{:.6g}",
-                     time_s, track.id, track.confirmed ? 1 : 0, state[0], state[1], state[2],
-                     state[3], place.range_m, place.range_rate_mps, place.azimuth_rad,
+  return fmt::format("{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{:.6g}", time_s,
+                     track.id, track.confirmed ? 1 : 0, state[0], state[1], state[2], state[3],
+                     place.range_m, place.range_rate_mps, place.azimuth_rad,
                      is_moving(track, radar_velocity_mps) ? 1 : 0, track.identity_probability);
 }
 
@@ -43,8 +43,8 @@ std::string covariance_cells(const tracking::Gaussian& state) {
 }
 
 std::string measurement_row(double time_s, const tracking::RadarMeasurement& one) {
-  return fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g}\n",
-                     time_s, one.range_m, one.range_rate_mps, one.azimuth_rad, one.range_sigma_m,
+  return fmt::format("{},{:.9g},{:.9g},{:.9g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g}\n", time_s,
+                     one.range_m, one.range_rate_mps, one.azimuth_rad, one.range_sigma_m,
                      one.range_rate_sigma_mps, one.azimuth_sigma_rad, one.range_systematic_m,
                      one.range_rate_systematic_mps, one.azimuth_systematic_rad);
 }

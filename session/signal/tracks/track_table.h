@@ -1,4 +1,5 @@
-// Rows of tracks.csv and measurements.csv.
+// Rows of tracks.csv and measurements.csv. Times have all their digits, so that they are those of the input also where they
+// count from 1970.
 #pragma once
 
 #include <string>
