@@ -259,7 +259,7 @@ OutputFolder::OutputFolder(fs::path folder, std::string fingerprint, bool overwr
   const bool has_record = !listed_.files.empty();
   each_file(folder_, [&](const fs::path& relative) {
     const std::string name = relative.generic_string();
-    const bool record = (name == "run.json" && has_record) || name == "timing.json";
+    const bool record = has_record && (name == "run.json" || name == "timing.json");
     if (!record && !listed_.contains(relative) && !is_of_this_input(relative))
       others.push_back(name);
     return others.size() <= kMostNamed;
@@ -276,16 +276,19 @@ OutputFolder::OutputFolder(fs::path folder, std::string fingerprint, bool overwr
       "renders there and leaves other files as they are");
 }
 
-bool OutputFolder::is_of_this_input(const fs::path& relative) const {
-  if (!frame_of(relative)) return false;
+// What a frame says; nothing of a file that is damaged, or no picture of ours.
+std::optional<std::string> OutputFolder::input_of(const fs::path& relative) const {
+  if (!frame_of(relative)) return std::nullopt;
   try {
-    const core::Metadata metadata = metadata_of(folder_ / relative);
-    return std::find(metadata.begin(), metadata.end(),
-                     std::pair<std::string, std::string>("fanbeam:input", fingerprint_)) !=
-           metadata.end();
+    for (const auto& [key, value] : metadata_of(folder_ / relative))
+      if (key == "fanbeam:input") return value;
   } catch (const core::InputError&) {
-    return false;  // damaged, or no picture of ours
   }
+  return std::nullopt;
+}
+
+bool OutputFolder::is_of_this_input(const fs::path& relative) const {
+  return input_of(relative) == fingerprint_;
 }
 
 std::map<int, std::set<std::string>> OutputFolder::frames(
@@ -308,8 +311,8 @@ int OutputFolder::keep_only(const std::set<std::string>& files) const {
   each_file(folder_, [&](const fs::path& relative) {
     const std::string name = relative.generic_string();
     const bool replaced = (listed_.contains(relative) && may_be_replaced(relative)) ||
-                          (overwrite_ && frame_of(relative));
-    if (replaced && !files.contains(name)) old.push_back(relative);
+                          (overwrite_ && input_of(relative));
+    if (!files.contains(name) && replaced) old.push_back(relative);
     return true;
   });
   std::error_code ignored;  // what cannot be removed is not listed

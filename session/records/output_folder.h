@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -49,11 +50,12 @@ class OutputFolder {
       const std::map<int, std::set<std::string>>& written) const;
 
   // Removes the files of frames and films that an earlier run.json lists, or with `overwrite` any
-  // frame, unless they are among `files` (relative to the folder) or frames of this input, which
+  // frame that says its input, unless they are among `files` (relative to the folder) or frames of this input, which
   // another part of its sequence may be writing there. Never leaves the folder. Of how many frames.
   int keep_only(const std::set<std::string>& files) const;
 
  private:
+  std::optional<std::string> input_of(const std::filesystem::path& relative) const;
   bool is_of_this_input(const std::filesystem::path& relative) const;
   bool has_record_of_another() const;
   std::filesystem::path aside(const std::string& name) const;

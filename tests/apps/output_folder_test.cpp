@@ -104,7 +104,7 @@ TEST_CASE("Pictures that a stopped run of the same input left are taken over wit
   const fs::path out = folder.path() / "out";
   const std::string scene = "obstacle-field --products bscope,obstacles ";
   must_render(out, scene + "--frames 100:160:20");
-  fs::remove(out / "run.json");
+  for (const char* record : {"run.json", "timing.json"}) fs::remove(out / record);
   must_render(out, scene + "--frames 200");
   CHECK(json_of(out / "run.json")["frames"].size() == 4);
   CHECK(files_told(out) == files_in(out));
@@ -158,6 +158,30 @@ TEST_CASE("A folder with other files is refused by their names, and --overwrite 
   CHECK(bytes_of(out / "notes.txt") == "mine");
   // Refused again: what is not ours does not become so.
   CHECK(render_quickly(out, "flat-grass --frames 0").exit_code == 2);
+}
+
+// Masks and labels that a person made went by their names alone.
+TEST_CASE("--overwrite leaves files with the names of frames that no render wrote",
+          "[render][fmcw]") {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  must_render(out, "flat-grass --frames 0 --products labels,masks");
+  for (const char* record : {"run.json", "timing.json"}) fs::remove(out / record);
+  const std::map<std::string, std::string> mine = {{"masks/00012.png", "mine"},
+                                                   {"labels/00012.json", "{}"},
+                                                   {"labels/00013.json", R"({"metadata": {}})"},
+                                                   {"detections/00012.csv", "range_m\n100\n"}};
+  fs::create_directories(out / "detections");
+  for (const auto& [name, bytes] : mine) folder.write("out/" + name, bytes);
+  for (const std::string command : {"fmcw street-76ghz --frames 0 --products beat",
+                                    "render flat-grass --frames 0 --products bscope"}) {
+    const Result result = run_fanbeam(command + " --overwrite -q -o " + quoted(out));
+    INFO(command << ": " << result.output);
+    CHECK(result.exit_code == 0);
+    for (const auto& [name, bytes] : mine) CHECK(bytes_of(out / name) == bytes);
+    CHECK_FALSE(fs::exists(out / "masks/00000.png"));
+    CHECK_FALSE(fs::exists(out / "labels/00000.json"));
+  }
 }
 
 TEST_CASE("A hostile run.json cannot have files removed outside the folder, nor others in it",
@@ -266,7 +290,8 @@ TEST_CASE("Somebody's file with the name of a run's own is refused, and stays", 
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "out";
   fs::create_directories(out);
-  for (const char* name : {"radar.toml", "coco.json", "labels.json", "lard.csv", "layers.json"}) {
+  for (const char* name :
+       {"radar.toml", "coco.json", "labels.json", "lard.csv", "layers.json", "timing.json"}) {
     std::ofstream(out / name) << "mine";
     for (const std::string command :
          {"fmcw street-76ghz --frames 0 --products detections",
