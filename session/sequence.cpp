@@ -217,6 +217,7 @@ void Run::write_records() {
   if (!record_.films.empty()) output_.begin({}, record_.films);
   if (layers) core::write_file_atomically(output_.path() / kLayersFile, layers_json(scene_));
   if (labels) write_run_labels(output_.path(), record_.frames);
+  record_.films.insert(output_.films().begin(), output_.films().end());
   std::set<std::string> files = record_.films;
   for (const FrameRecord& record : record_.frames)
     files.insert(record.files.begin(), record.files.end());

@@ -68,14 +68,16 @@ std::vector<std::string> record_files() {
   return files;
 }
 
+bool is_film(const fs::path& relative) {
+  return relative.parent_path().empty() && relative.stem() == "preview";
+}
+
 // A film, or a file in the folder of a product: what a record may have removed, whoever wrote it.
 bool may_be_replaced(const fs::path& relative) {
-  const bool film = relative.parent_path().empty() &&
-                    (relative.stem() == "preview" || is_of_run(relative.generic_string()));
-  return film || (std::distance(relative.begin(), relative.end()) == 2 &&
-                  std::all_of(relative.begin(), relative.end(), [](const fs::path& part) {
-                    return core::is_safe_word(part.string());
-                  }));
+  return is_film(relative) || is_of_run(relative.generic_string()) ||
+         (std::distance(relative.begin(), relative.end()) == 2 &&
+          std::all_of(relative.begin(), relative.end(),
+                      [](const fs::path& part) { return core::is_safe_word(part.string()); }));
 }
 
 // As far as the file can be read: it may be anybody's.
@@ -254,6 +256,11 @@ OutputFolder::OutputFolder(fs::path folder, std::string fingerprint, bool overwr
       listed_(listed_in(folder_)) {
   noted_.products = listed_.products;
   noted_.begun = listed_.begun;
+  if (!has_record_of_another())
+    for (const std::string& name : listed_.files) {
+      std::error_code none;
+      if (is_film(name) && fs::is_regular_file(folder_ / name, none)) films_.insert(name);
+    }
   if (overwrite_) return;
   std::vector<std::string> others;
   const bool has_record = !listed_.files.empty();

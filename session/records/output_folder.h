@@ -49,6 +49,9 @@ class OutputFolder {
   std::map<int, std::set<std::string>> frames(
       const std::map<int, std::set<std::string>>& written) const;
 
+  // Films of this input that its record listed when this run began: they do not say it themselves.
+  const std::set<std::string>& films() const { return films_; }
+
   // Removes the files of frames and films that an earlier run.json lists, or with `overwrite` any
   // frame that says its input, unless they are among `files` (relative to the folder) or frames of this input, which
   // another part of its sequence may be writing there. Never leaves the folder. Of how many frames.
@@ -75,6 +78,7 @@ class OutputFolder {
   static Listed listed_in(const std::filesystem::path& folder);
   Listed listed_;  // by the run.json that was there, and the note
   Listed noted_;   // by the note as it is now
+  std::set<std::string> films_{};
   bool begun_ = false;
   bool set_aside_ = false;  // the record of another input
   // What was there then, of what the note says.

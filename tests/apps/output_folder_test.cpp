@@ -98,6 +98,28 @@ TEST_CASE("Frames of the same input stay, and run.json is that of all frames ren
   CHECK(json_of(out / "run.json")["frames"][1]["files"].size() == 5);
 }
 
+// The next run of other products removed it without a word.
+TEST_CASE("A film of the same input stays and is listed, and goes with its input", "[render]") {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  must_render(out, "obstacle-field --frames 100:140:20 --products bscope");
+  // As a run with the product preview leaves it, which takes ffmpeg.
+  nlohmann::json record = json_of(out / "run.json");
+  record["files"] = nlohmann::json::array({"preview.gif"});
+  folder.write("out/run.json", record.dump());
+  folder.write("out/preview.gif", "a film");
+  for (const char* words :
+       {"--frames 100 --products power,labels", "--frames 100:180:20 --products bscope --resume",
+        "--frames 100 --products bscope --overwrite"}) {
+    INFO(words);
+    must_render(out, std::string("obstacle-field ") + words);
+    CHECK(bytes_of(out / "preview.gif") == "a film");
+    CHECK(files_told(out) == files_in(out));
+  }
+  must_render(out, "obstacle-field --frames 100 --products bscope --seed 5");
+  CHECK_FALSE(fs::exists(out / "preview.gif"));
+}
+
 TEST_CASE("Pictures that a stopped run of the same input left are taken over without its record",
           "[render]") {
   const TemporaryFolder folder;
