@@ -22,9 +22,16 @@ struct FlightVolume {
   // Smallest and largest angle between the vertical of a place in it and that of the scene's origin.
   double least_vertical_turn_rad = 0.0, vertical_turn_rad = 0.0;
 
+  // A pose between two at the same place is there but for rounding.
+  static constexpr double kRounding_m = 1e-3;
+
+  bool holds_height(double up_m) const {
+    return up_m >= lowest_m - kRounding_m && up_m <= highest_m + kRounding_m;
+  }
   bool holds(const glm::dvec3& at_m) const {
-    return at_m.x >= west_m && at_m.x <= east_m && at_m.y >= south_m && at_m.y <= north_m &&
-           at_m.z >= lowest_m && at_m.z <= highest_m;
+    return at_m.x >= west_m - kRounding_m && at_m.x <= east_m + kRounding_m &&
+           at_m.y >= south_m - kRounding_m && at_m.y <= north_m + kRounding_m &&
+           holds_height(at_m.z);
   }
 };
 

@@ -43,8 +43,7 @@ bool planned_for(const Scene& scene, const renderer::FramePose& pose) {
   turned.vertical_turn_rad = vertical_turn_rad(pose);
   const bool within_margin =
       renderer::height_margin_m(turned) <= renderer::height_margin_m(scene.facts) + kRounding_m;
-  return within_margin && pose.position_m.z >= scene.volume.lowest_m &&
-         pose.position_m.z <= scene.volume.highest_m &&
+  return within_margin && scene.volume.holds_height(pose.position_m.z) &&
          renderer::covers(scene.facts, seen_from(scene, scene.all_facts, pose));
 }
 

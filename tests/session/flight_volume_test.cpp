@@ -129,6 +129,34 @@ TEST_CASE("Every frame of a flight is one that its plan was made for", "[flight_
   }
 }
 
+// Poses between its rows are off their height by rounding: plans of their own took twice the time.
+TEST_CASE("The frames of a radar that stands are inside its volume", "[flight_volume]") {
+  const std::string approach = "[trajectory.ils]\nrunway = \"36\"\nstart_distance_m = 1500.0\n";
+  for (const auto& [latitude, longitude] : {std::pair{"51.991931873", "10.003472588"},
+                                            {"51.987654321", "9.9987654321"},
+                                            {"52.001234567", "10.011223344"},
+                                            {"51.98271828", "9.99314159"},
+                                            {"52.00577215", "10.00161803"},
+                                            {"51.99693147", "9.98892718"},
+                                            {"51.9914142135", "10.0117320508"}}) {
+    INFO(latitude << ", " << longitude);
+    const TemporaryFolder folder;
+    std::string rows =
+        "time_s,latitude_deg,longitude_deg,height_m,roll_deg,pitch_deg,heading_deg\n";
+    for (const char* time : {"0", "1", "2"})
+      rows += std::string(time) + "," + latitude + "," + longitude + ",130,0,0,10\n";
+    folder.write("standing.csv", rows);
+    const auto scene = tests::good_scene(
+        folder,
+        tests::replaced(tests::kSmallScene, approach,
+                        "[trajectory]\nfile = \"standing.csv\"\nvertical_datum = \"scene\"\n"));
+    for (int frame = 0; frame < scene->frame_count(); ++frame) {
+      INFO("frame " << frame);
+      CHECK(scenes::planned_for(*scene, scene->frame_pose(frame)));
+    }
+  }
+}
+
 TEST_CASE("A flight's plan does not hold where verticals turn more than its bounds count on",
           "[flight_volume]") {
   const TemporaryFolder folder;
