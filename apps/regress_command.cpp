@@ -21,7 +21,6 @@ void render_case(const measure::SuiteCase& one, const RegressOptions& options,
   RenderOptions render_options;
   static_cast<session::RenderRequest&>(render_options) = one.render;
   render_options.repeatable = true;
-  if (!options.data.empty()) render_options.data = options.data;
   render_options.output = folder.string();
   render_options.threads = options.threads;
   CommonOptions quiet;
@@ -52,7 +51,9 @@ int regress(const RegressOptions& options, const CommonOptions& common) {
   core::ProblemList missing;
   check_data_folder(options.data, missing);
   missing.throw_if_errors();
-  const measure::Suite suite = measure::read_valid_suite(options.suite, find_scene);
+  measure::Suite suite = measure::read_valid_suite(options.suite, shipped_folder());
+  if (!options.data.empty())
+    for (measure::SuiteCase& one : suite.cases) one.render.data = options.data;
   const fs::path output = results_folder(suite, options.output);
   const std::vector<CaseResult> results =
       run_suite(suite, {output, options.junit, options.page,
@@ -80,7 +81,7 @@ int approve(const ApproveOptions& options, const CommonOptions& common) {
   if (reason.empty())
     core::throw_input_error(core::ErrorClass::range, "--reason", "\"" + options.reason + "\"",
                             "why the new pictures are right");
-  const measure::Suite suite = measure::read_valid_suite(options.suite, find_scene);
+  const measure::Suite suite = measure::read_valid_suite(options.suite, shipped_folder());
   const std::size_t approved = approve_cases(
       suite, {results_folder(suite, options.output), options.only, reason,
               [&](const measure::SuiteCase& one, std::size_t pictures, const fs::path& folder) {

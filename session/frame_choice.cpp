@@ -11,35 +11,45 @@
 namespace fanbeam::session {
 namespace {
 
-std::vector<std::optional<long>> numbers_between_colons(const std::string& text) {
-  std::vector<std::optional<long>> parts;
+struct Slice {
+  std::vector<std::optional<long>> parts;  // one is a single frame
+  long step = 1;
+};
+
+Slice slice_of(const std::string& text) {
+  const auto refuse = [&] {
+    core::throw_input_error(core::ErrorClass::parse, "--frames", "\"" + text + "\"",
+                            "A:B or A:B:STEP with whole numbers");
+  };
+  Slice slice;
   for (std::size_t from = 0; from <= text.size();) {
     const std::size_t colon = std::min(text.find(':', from), text.size());
     const std::string part = text.substr(from, colon - from);
     from = colon + 1;
     long value = 0;
     const auto [end, status] = std::from_chars(part.data(), part.data() + part.size(), value);
-    if (!part.empty() && (status != std::errc() || end != part.data() + part.size()))
-      core::throw_input_error(core::ErrorClass::parse, "--frames", "\"" + text + "\"",
-                              "A:B or A:B:STEP with whole numbers");
-    parts.push_back(part.empty() ? std::nullopt : std::optional<long>(value));
+    if (!part.empty() && (status != std::errc() || end != part.data() + part.size())) refuse();
+    slice.parts.push_back(part.empty() ? std::nullopt : std::optional<long>(value));
   }
-  if (parts.size() > 3)
-    core::throw_input_error(core::ErrorClass::parse, "--frames", "\"" + text + "\"",
-                            "A:B or A:B:STEP with whole numbers");
-  return parts;
+  if (slice.parts.size() > 3) refuse();
+  if (slice.parts.size() == 3) slice.step = slice.parts[2].value_or(1);
+  if (slice.step < 1)
+    core::throw_input_error(core::ErrorClass::range, "--frames", text, "a STEP of at least 1");
+  return slice;
 }
 
 }  // namespace
+
+void check_frames(const std::string& text) { slice_of(text); }
 
 std::vector<int> parse_frames(const std::string& text, int count) {
   if (count == 0)
     core::throw_input_error(core::ErrorClass::ref, "trajectory", "missing",
                             "[trajectory] in the scene: the frames of a flight are what is asked "
                             "for");
-  const std::vector<std::optional<long>> parts = numbers_between_colons(text);
+  const auto [parts, step] = slice_of(text);
   const long total = count;
-  const auto from_end = [&](long index) {
+  const auto from_end = [total](long index) {
     return std::clamp(index < 0 ? index + total : index, 0L, total);
   };
   if (parts.size() == 1 && parts[0]) {
@@ -49,10 +59,7 @@ std::vector<int> parse_frames(const std::string& text, int count) {
                               fmt::format("a frame from 0 to {}", total - 1));
     return {static_cast<int>(index)};
   }
-  const long step = parts.size() == 3 ? parts[2].value_or(1) : 1;
-  if (step < 1)
-    core::throw_input_error(core::ErrorClass::range, "--frames", text, "a STEP of at least 1");
-  const long begin = parts.empty() ? 0 : from_end(parts[0].value_or(0));
+  const long begin = from_end(parts[0].value_or(0));
   const long end = parts.size() < 2 ? total : from_end(parts[1].value_or(total));
   std::vector<int> frames;
   for (long index = begin; index < end; index += step) {

@@ -11,6 +11,9 @@ namespace fanbeam::session {
 // above 0; a single number is that frame. Throws InputError E-PARSE or E-RANGE.
 std::vector<int> parse_frames(const std::string& text, int count);
 
+// Throws what parse_frames throws however many frames there are.
+void check_frames(const std::string& text);
+
 // Up to `count` of the frames, at the middles of equal parts.
 std::vector<int> spread_over(const std::vector<int>& frames, std::size_t count);
 

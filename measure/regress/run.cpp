@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include "core/files.h"
 #include "core/json_node.h"
 #include "core/machine.h"
 #include "measure/regress/report.h"
+#include "session/shipped.h"
 
 namespace fanbeam::measure {
 namespace {
@@ -53,6 +55,19 @@ std::vector<core::Problem> problems_of(const core::InputError& error, const Suit
   return problems;
 }
 
+// Before anything is rendered; cases that share one are told once.
+void check_data(const Suite& suite) {
+  core::ProblemList problems;
+  std::set<std::string> asked;
+  for (const SuiteCase& one : suite.cases) {
+    if (one.render.data.empty() || !asked.insert(one.render.data).second) continue;
+    core::ProblemList missing;
+    session::check_data_folder(one.render.data, "data", missing);
+    if (missing.has_errors()) problems.append(problems_of(core::InputError(missing.all()), one));
+  }
+  problems.throw_if_errors();
+}
+
 CaseResult run_case(const Suite& suite, const SuiteCase& one, const SuiteRun& run,
                     std::optional<core::InstructionLevel> asked) {
   CaseResult result;
@@ -87,6 +102,7 @@ void write_reports(const Suite& suite, const std::vector<CaseResult>& results,
 }  // namespace
 
 std::vector<CaseResult> run_suite(const Suite& suite, const SuiteRun& run) {
+  check_data(suite);
   clear_output(suite, run.output);
   const auto asked = core::instruction_limit();  // by --isa, which goes before what is pinned
   std::vector<CaseResult> results;

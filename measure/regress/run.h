@@ -23,9 +23,9 @@ struct SuiteRun {
 };
 
 // Writes rendered/, results.json, junit.xml and report.html. Processors' instructions are limited as the
-// caller did already, else as suite and cases say, case by case. Throws InputError E-PATH, before
-// anything is rendered, for an output folder that holds something else than earlier results, or overlaps
-// the approved pictures.
+// caller did already, else as suite and cases say, case by case. Throws InputError, before anything is
+// rendered: E-IO for folders of data that are not there, E-PATH for an output folder that holds something
+// else than earlier results, or overlaps the approved pictures.
 std::vector<CaseResult> run_suite(const Suite& suite, const SuiteRun& run);
 
 struct Approving {

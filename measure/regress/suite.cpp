@@ -13,7 +13,9 @@
 #include "renderer/casting/sampling.h"
 #include "renderer/plan/caster_choice.h"
 #include "renderer/plan/plan.h"
+#include "session/frame_choice.h"
 #include "session/products/products.h"
+#include "session/shipped.h"
 
 namespace fanbeam::measure {
 namespace {
@@ -111,8 +113,9 @@ std::string read_products(ConfigTable& table) {
 
 class CaseReader {
  public:
-  CaseReader(ConfigTable& table, fs::path folder, const FindScene& find_scene)
-      : table_(table), folder_(std::move(folder)), find_scene_(find_scene) {}
+  // Names are looked for in `folder` first.
+  CaseReader(ConfigTable& table, const fs::path& folder, const fs::path& shipped)
+      : table_(table), folder_(folder), shipped_(shipped) {}
 
   SuiteCase read(const SuiteCase& of_all) {
     SuiteCase result = of_all;
@@ -120,11 +123,11 @@ class CaseReader {
     result.place = table_.place("name");
     result.folder = file_name_of(result.name);
     session::RenderRequest& render = result.render;
-    render.scene = read_scene();
+    read_scene(render);
     render.frames = table_.required_text("frames");
+    checked("frames", ErrorClass::parse, [&] { session::check_frames(render.frames); });
     render.products = read_products(table_);
-    if (const auto sensor = table_.optional_text("sensor")) render.sensor = beside(*sensor);
-    if (const auto data = table_.optional_text("data")) render.data = beside(*data);
+    if (const auto data = table_.optional_text("data")) render.data = (folder_ / *data).string();
     read_sampling(render);
     read_realisation(render);
     result.isa = read_isa(table_, of_all.isa);
@@ -140,21 +143,27 @@ class CaseReader {
   }
 
  private:
-  std::string beside(const std::string& path) const { return (folder_ / path).string(); }
-
-  std::string read_scene() {
-    const std::string name = table_.required_text("scene");
-    if (name.empty()) return name;
-    std::error_code refused;
-    const fs::path near = folder_ / name;
-    if (fs::is_regular_file(near, refused) || fs::exists(near / "scene.toml", refused))
-      return near.string();
+  // What is refused is told of the key.
+  template <typename Check>
+  void checked(std::string_view key, ErrorClass error_class, Check check) {
     try {
-      return find_scene_(name).string();
+      check();
     } catch (const core::InputError& error) {
-      table_.error(ErrorClass::ref, "scene", "\"" + name + "\"", error.problems().front().expected);
-      return name;
+      const core::Problem& problem = error.problems().front();
+      table_.error(error_class, key, problem.value, problem.expected);
     }
+  }
+
+  void read_scene(session::RenderRequest& render) {
+    render.scene = table_.required_text("scene");
+    if (!render.scene.empty())
+      checked("scene", ErrorClass::ref, [&] {
+        render.scene = session::find_scene(render.scene, shipped_, folder_).string();
+      });
+    if (const auto sensor = table_.optional_text("sensor"))
+      checked("sensor", ErrorClass::ref, [&] {
+        render.sensor = session::find_sensor(*sensor, shipped_, "sensor", folder_).string();
+      });
   }
 
   void read_sampling(session::RenderRequest& render) {
@@ -184,17 +193,12 @@ class CaseReader {
           table_.choice("realisation", {"mean", "sample"}, 0) == 0 ? "mean" : "sample";
     render.effects = table_.optional_text("effects").value_or("");
     if (render.effects.empty()) return;
-    try {
-      renderer::parse_effect_wishes(render.effects);
-    } catch (const core::InputError& error) {
-      const core::Problem& problem = error.problems().front();
-      table_.error(ErrorClass::ref, "effects", problem.value, problem.expected);
-    }
+    checked("effects", ErrorClass::ref, [&] { renderer::parse_effect_wishes(render.effects); });
   }
 
   ConfigTable& table_;
-  fs::path folder_;
-  const FindScene& find_scene_;
+  const fs::path& folder_;
+  const fs::path& shipped_;
 };
 
 fs::path read_approved(ConfigTable& root, const fs::path& folder, core::ProblemList& problems) {
@@ -231,7 +235,7 @@ std::string file_name_of(const std::string& text) {
   return name.empty() ? "~" : name;
 }
 
-Suite read_suite(const fs::path& file, const FindScene& find_scene, core::ProblemList& problems) {
+Suite read_suite(const fs::path& file, const fs::path& shipped, core::ProblemList& problems) {
   if (!fs::is_regular_file(file))
     core::throw_input_error(ErrorClass::io, core::Place{file.string()}, "suite",
                             fs::exists(file) ? "not a file" : "not found",
@@ -249,7 +253,7 @@ Suite read_suite(const fs::path& file, const FindScene& find_scene, core::Proble
   read_tolerances(root.table("tolerance"), of_all.tolerances);
   std::set<std::string> names;
   for (ConfigTable& table : root.tables("case")) {
-    suite.cases.push_back(CaseReader(table, folder, find_scene).read(of_all));
+    suite.cases.push_back(CaseReader(table, folder, shipped).read(of_all));
     const std::string& name = suite.cases.back().name;
     if (!name.empty() && !names.insert(name).second)
       table.error(ErrorClass::ref, "name", "\"" + name + "\"",
@@ -261,9 +265,9 @@ Suite read_suite(const fs::path& file, const FindScene& find_scene, core::Proble
   return suite;
 }
 
-Suite read_valid_suite(const fs::path& file, const FindScene& find_scene) {
+Suite read_valid_suite(const fs::path& file, const fs::path& shipped) {
   core::ProblemList problems;
-  Suite suite = read_suite(file, find_scene, problems);
+  Suite suite = read_suite(file, shipped, problems);
   problems.throw_if_errors();
   return suite;
 }

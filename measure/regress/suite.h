@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -38,14 +37,12 @@ struct Suite {
 // never names another folder, whatever the text, and needs no escape in a URL.
 std::string file_name_of(const std::string& text);
 
-// The folder or file of a scene by its name; throws InputError where there is none.
-using FindScene = std::function<std::filesystem::path(const std::string& name)>;
-
-// Paths in the file are relative to it. What is wrong is in `problems`, all together; throws
-// InputError E-IO only where there is no such file.
-Suite read_suite(const std::filesystem::path& file, const FindScene& find_scene,
+// Paths in the file are relative to it; scenes and sensors that are not there are looked for in
+// `shipped` (session/shipped.h). What is wrong is in `problems`, all together; throws InputError E-IO
+// only where there is no such file. Data may lie elsewhere: run_suite looks for it.
+Suite read_suite(const std::filesystem::path& file, const std::filesystem::path& shipped,
                  core::ProblemList& problems);
 // The same for whoever can do nothing with a suite that is not valid: throws all problems.
-Suite read_valid_suite(const std::filesystem::path& file, const FindScene& find_scene);
+Suite read_valid_suite(const std::filesystem::path& file, const std::filesystem::path& shipped);
 
 }  // namespace fanbeam::measure

@@ -243,14 +243,15 @@ TEST_CASE("A suite's faults are told all at once, by line, and nothing is render
               "[[case]]\n"
               "name = \"two\"\n"
               "scene = \"grass\"\n"
-              "frames = \"0\"\n"
+              "frames = \"foo\"\n"
               "effects = \"+snoww\"\n"
               "[case.tolerance.power]\n"
               "reason = \" \"\n"
               "[[case]]\n"
               "name = \"two\"\n"
               "scene = \"grass\"\n"
-              "isa = \"v9\"\n");
+              "isa = \"v9\"\n"
+              "sensor = \"hivision-49\"\n");
   const Result result = place.run();
   INFO(result.output);
   CHECK(result.exit_code == 3);
@@ -258,15 +259,48 @@ TEST_CASE("A suite's faults are told all at once, by line, and nothing is render
        {"suite.toml:2:1: E-PATH approved", "suite.toml:3:1: E-REF aproved",
         "suite.toml:5:1: E-RANGE tolerance.bscope.rms", "tolerance.bscope.reason = missing",
         "suite.toml:7:1: E-RANGE case[0].name", "suite.toml:8:1: E-REF case[0].scene",
-        "suite.toml:10:1: E-REF case[0].products", "suite.toml:15:1: E-REF case[1].effects",
-        "case[1].tolerance.power = no limit",
+        "suite.toml:10:1: E-REF case[0].products", "suite.toml:14:1: E-PARSE case[1].frames",
+        "suite.toml:15:1: E-REF case[1].effects", "case[1].tolerance.power = no limit",
         "suite.toml:17:1: E-RANGE case[1].tolerance.power.reason",
         "case[1].tolerance.power = a tolerance", "suite.toml:19:1: E-REF case[2].name",
-        "case[2].frames = missing", "suite.toml:21:1: E-RANGE case[2].isa"}) {
+        "case[2].frames = missing", "suite.toml:21:1: E-RANGE case[2].isa",
+        "suite.toml:22:1: E-REF case[2].sensor = \"hivision-49\" not found"}) {
     INFO(told);
     CHECK(result.output.find(told) != std::string::npos);
   }
   CHECK_FALSE(fs::exists(place.out()));
+}
+
+// All before it was rendered first.
+TEST_CASE(
+    "A folder of data that is not there is told before anything is rendered, unless --data is",
+    "[regress]") {
+  Workplace place;
+  place.set_suite(
+      "\n[[case]]\nname = \"other\"\nscene = \"grass\"\nsensor = \"radar.toml\"\n"
+      "frames = \"0\"\nrays_per_cell = 1\ndata = \"nowhere\"");
+  const Result refused = place.run();
+  require_exit(refused, 3);
+  CHECK(refused.output.find("E-IO case \"other\" data") != std::string::npos);
+  CHECK_FALSE(fs::exists(place.out()));
+  require_exit(place.run("--data " + quoted(place.path())), 1);
+}
+
+TEST_CASE("A sensor is a file beside the suite, or a shipped one by its name", "[regress]") {
+  Workplace place;
+  const auto sensor_of = [&](const std::string& name) {
+    place.write("suite.toml",
+                "name = \"test\"\n[[case]]\nname = \"a\"\nscene = \"grass\"\n"
+                "frames = \"0\"\nsensor = \"" +
+                    name + "\"\n");
+    return fs::path(
+        measure::read_valid_suite(place.suite(), FANBEAM_SOURCE_DIR).cases.at(0).render.sensor);
+  };
+  const fs::path shipped = fs::path(FANBEAM_SOURCE_DIR) / "sensors/hivision-94.toml";
+  CHECK(fs::equivalent(sensor_of("radar.toml"), place.path() / "radar.toml"));
+  CHECK(fs::equivalent(sensor_of("hivision-94"), shipped));
+  place.write("hivision-94", "mine");
+  CHECK(fs::equivalent(sensor_of("hivision-94"), place.path() / "hivision-94"));
 }
 
 // A picture that went black passed a limit that only layers are held to.
@@ -277,8 +311,7 @@ TEST_CASE("A limit that a product's figures do not have is refused", "[regress]"
                                   " = 1\nrms = 1\nreason = \"x\"\n"
                                   "[[case]]\nname = \"a\"\nscene = \"grass\"\nframes = \"0\"\n");
     core::ProblemList problems;
-    measure::read_suite(
-        place.suite(), [](const std::string& name) { return fs::path(name); }, problems);
+    measure::read_suite(place.suite(), FANBEAM_SOURCE_DIR, problems);
     const std::string told = problems.has_errors() ? to_string(problems.all().front()) : "";
     INFO(told);
     CHECK((told.empty() || told.find("suite.toml:3:1: E-REF tolerance." + product + "." + limit) !=

@@ -57,6 +57,10 @@ TEST_CASE("Slices that select nothing, or are none, are refused", "[frames]") {
   for (const char* text :
        {"a", "1:b", "1,2", "1.5", "1:2:3:4", " 1", "1 ", "0x1", "99999999999999999999"})
     CHECK(code_of(text, 10) == "E-PARSE");
+  // However many there are.
+  CHECK_THROWS_AS(session::check_frames("1:b"), core::InputError);
+  CHECK_THROWS_AS(session::check_frames("::0"), core::InputError);
+  for (const char* text : {"", "5:2", "10:", "7000"}) CHECK_NOTHROW(session::check_frames(text));
 }
 
 TEST_CASE("The largest numbers do not overflow", "[frames]") {
