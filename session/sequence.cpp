@@ -257,6 +257,9 @@ void Run::fill_result() {
 Sequence render_sequence(Session& session, const SequenceSettings& settings,
                          const ProgressListener& progress) {
   check(settings, session.scene()->options);
+  // A time budget is measured with as many as frames have, labels are made with them, and the record
+  // tells them.
+  const core::ThreadLimit limit(session.threads());
   Run run(session, settings);
   run.render_frames(progress);
   run.write_records();

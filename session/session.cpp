@@ -252,6 +252,8 @@ double Session::samples() const {
 
 std::uint64_t Session::seed() const { return inside_->seed; }
 
+int Session::threads() const { return inside_->threads; }
+
 core::ProblemList Session::change(const std::function<void(Asked&)>& ask, bool as_before) {
   const std::lock_guard<std::mutex> one(inside_->setting);
   Asked asked = inside_->asked;

@@ -111,6 +111,7 @@ class Session {
   // Of that, as Samples takes them; 0 where every frame is refined to an accuracy.
   double samples() const;
   std::uint64_t seed() const;
+  int threads() const;  // as it was opened, for what is made of its frames too
 
  private:
   struct Asked;

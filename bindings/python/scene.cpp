@@ -13,6 +13,7 @@
 #include "bindings/python/interruptible.h"
 #include "bindings/python/scene_conditions.h"
 #include "bindings/python/scene_handle.h"
+#include "core/parallel.h"
 #include "core/units.h"
 #include "renderer/plan/caster_choice.h"
 #include "renderer/plan/plan.h"
@@ -136,6 +137,7 @@ py::dict render(const Scene& scene, const py::tuple& pose, const py::handle& fra
   without_lock([&](const core::StopToken& stop) {
     *frame = session.render(now, at, number, wanted, stop);
     if (!labelled) return;
+    const core::ThreadLimit limit(session.threads());
     const session::FrameLabels found = scene.labeller(under)->labels(*under, at, *frame);
     text = session::labels_json(found, *under, number, at, {});
   });

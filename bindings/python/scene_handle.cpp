@@ -30,7 +30,6 @@ void refuse_in_fork() {
 Scene::Scene(const std::filesystem::path& scene, const session::Setup& setup,
              core::ProblemList& problems)
     : session_(std::make_unique<session::Session>(scene, setup, problems)),
-      threads_(setup.threads),
       opened_by_(::getpid()) {}
 
 Scene::~Scene() {

@@ -25,8 +25,6 @@ class Scene {
   // Throws std::runtime_error (RuntimeError) in a process forked from the one that opened it: the
   // threads that it renders with are not there.
   session::Session& session() const;
-  // At most, for what is made of it; 0: all.
-  int threads() const { return threads_; }
   // Of a scene that the session gave; made anew when the conditions have changed.
   std::shared_ptr<const session::Labeller> labeller(
       const std::shared_ptr<const scenes::Scene>& scene) const;
@@ -36,7 +34,6 @@ class Scene {
   mutable std::shared_ptr<const scenes::Scene> labelled_;
   mutable std::shared_ptr<const session::Labeller> labeller_;
   std::unique_ptr<session::Session> session_;
-  int threads_;
   pid_t opened_by_;
 };
 

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/image.h"
+#include "core/parallel.h"
 #include "core/units.h"
 #include "sensors/display/display.h"
 #include "tests/needed_program.h"
@@ -61,6 +62,22 @@ TEST_CASE("Pictures of a sequence are those that its session renders", "[sequenc
     CHECK(core::read_image(out.path() / "run" / "cscope" / name).layers.at(0).values ==
           grey(sensors::cscope_picture(sensor, frame.cscope_grey)));
   }
+}
+
+// Its budget was measured with all processors, and the record told them.
+TEST_CASE("A sequence keeps to the threads of its session", "[sequence]") {
+  const TemporaryFolder scene, out;
+  scene.write("scene.toml", tests::kSmallScene);
+  core::ProblemList problems;
+  session::Session session(scene.path(), {.shipped = FANBEAM_SOURCE_DIR, .threads = 1}, problems);
+  const session::Sequence sequence =
+      session::render_sequence(session,
+                               {.output = out.path() / "run",
+                                .frames = "3",
+                                .products = {"bscope"},
+                                .sampling = {.rays_per_cell = 2.0}},
+                               [](int, int) { CHECK(core::ThreadLimit::threads() == 1); });
+  CHECK(sequence.record.threads == 1);
 }
 
 TEST_CASE("All that a sequence asks for in vain is told at once, and nothing is written",

@@ -183,12 +183,11 @@ py::dict frame(const Scene& scene, int index, const std::set<std::string>& produ
   told_in_python_words([&] {
     without_lock([&](const core::StopToken& stop) {
       const core::StopScope scope(stop);
-      const core::ThreadLimit limit(scene.threads());
+      const core::ThreadLimit limit(scene.session().threads());
       made->radar = session::fmcw_radar(settings, sensor);
       session::check_processing(made->radar, products);
       made->paths = session::fmcw_paths(*now, index, settings);
-      made->frame =
-          session::fmcw_frame(made->radar, *now, made->paths, index, settings, products);
+      made->frame = session::fmcw_frame(made->radar, *now, made->paths, index, settings, products);
     });
   });
   const py::object owner = owner_of(made);
