@@ -22,7 +22,7 @@ struct TargetState {
   // a new target and needs `rcs`.
   std::string name;
   core::Geodetic position;           // ellipsoidal height
-  std::optional<glm::dquat> q_NB{};  // its x axis is the boresight; else as before, or north
+  std::optional<glm::dquat> q_NB{};  // its x axis is the boresight; else the scene's, or north
   std::optional<materials::RcsModel> rcs{};
   std::optional<core::Swerling> swerling{};
 };

@@ -1,7 +1,9 @@
 // Weather, targets and sampling: milliseconds each, and nothing changed where one is refused.
 #include <algorithm>
+#include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "bindings/c/arguments.h"
@@ -53,7 +55,22 @@ session::TargetState state_of(const fanbeam_target& target) {
   return state;
 }
 
-// Where the state before had an attitude or an rcs and this one has not, they stay. Its index.
+// Where the state before had an attitude or an rcs and this one has not, they stay.
+void complete(session::TargetState& state, const session::TargetState& before) {
+  if (!state.q_NB) state.q_NB = before.q_NB;
+  if (!state.rcs) state.rcs = before.rcs;
+}
+
+void complete(std::vector<session::TargetState>& states,
+              const std::vector<session::TargetState>& all_before) {
+  std::map<std::string_view, const session::TargetState*> told;
+  for (const session::TargetState& before : all_before) told.emplace(before.name, &before);
+  for (session::TargetState& state : states)
+    if (const auto before = told.find(state.name); before != told.end())
+      complete(state, *before->second);
+}
+
+// Its index.
 std::size_t merge(session::TargetState state, std::vector<session::TargetState>& states) {
   const auto before = std::find_if(states.begin(), states.end(),
                                    [&](const auto& known) { return known.name == state.name; });
@@ -61,8 +78,7 @@ std::size_t merge(session::TargetState state, std::vector<session::TargetState>&
     states.push_back(std::move(state));
     return states.size() - 1;
   }
-  if (!state.q_NB) state.q_NB = before->q_NB;
-  if (!state.rcs) state.rcs = before->rcs;
+  complete(state, *before);
   *before = std::move(state);
   return static_cast<std::size_t>(before - states.begin());
 }
@@ -145,6 +161,7 @@ fanbeam_status fanbeam_set_targets(fanbeam_session* session, const fanbeam_targe
     }
     arguments.done();
     const std::lock_guard<std::mutex> one(session->changing);
+    complete(states, session->targets);
     put(*session, std::move(states), "target[", "targets[");
     return FANBEAM_OK;
   });

@@ -125,7 +125,8 @@ class Target:
     """A point scatterer that stands where it is said to, until told otherwise.
 
     `name`: of the scene's own, all that share it; another one is new and needs `rcs_m2`, the same from
-    all sides (0 to 1e9). `attitude_deg`: roll, pitch, heading of its boresight; as before unless given.
+    all sides (0 to 1e9). `attitude_deg`: roll, pitch, heading of its boresight. What is
+    not given is the scene's own, of a new one north: it does not stay from an earlier call.
     """
 
     name: str
