@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -32,15 +33,20 @@ inline constexpr int kLeastColumns = 860;                         // that hold t
 // Grey levels in dB along a bar, the highest first.
 Axis level_axis(const sensors::Sensor& sensor, int pixels);
 
-// Where a runway lies along a scale; the wedge points at its nearest end. Nothing where the scale
+// Where a runway lies along a scale; the wedge points at its nearest point. Nothing where the scale
 // holds no point of it.
 template <class Value>
 std::optional<Mark> runway_mark(const RunwayView& runway, const Axis& scale, const Value& value) {
   std::optional<Mark> mark;
+  double nearest_m = std::numeric_limits<double>::infinity();
   for (const SeenPoint& point : runway.seen) {
     const int pixel = pixel_of(scale, value(point));
     if (pixel < 0) continue;
     if (!mark) mark = Mark{pixel, pixel, pixel, runway.name, figure_style::kRunway};
+    if (point.range_m < nearest_m) {
+      mark->tip = pixel;
+      nearest_m = point.range_m;
+    }
     mark->from = std::min(mark->from, pixel);
     mark->to = std::max(mark->to, pixel);
   }

@@ -8,6 +8,7 @@
 
 #include "core/units.h"
 #include "sensors/display/display.h"
+#include "session/figure/figure_page.h"
 #include "session/figure/plan_figure.h"
 #include "session/figure/runway_view.h"
 #include "tests/apps/program.h"
@@ -169,6 +170,20 @@ TEST_CASE("The range scale is in km beyond 2 km, in m below, or as asked", "[fig
   CHECK(length_text(1852.0, {"NM", 1852.0}) == "1.00 NM");
   CHECK(length_text(84.26, {"m", 1.0}) == "84.3 m");
   CHECK(length_text(870.4, {"m", 1.0}) == "870 m");
+}
+
+// It stood at the picture's edge for a runway that lies across the view.
+TEST_CASE("A wedge points at the nearest point of a runway, wherever along it", "[figure]") {
+  RunwayView across;
+  for (const double azimuth_deg : {-20.0, -10.0, -1.0, 9.0, 18.0})
+    across.seen.push_back({2000.0 / std::cos(radians(azimuth_deg + 1.0)), radians(azimuth_deg)});
+  const Axis scale{-20.5, 20.5, 41, ""};
+  const auto mark = runway_mark(
+      across, scale, [](const SeenPoint& point) { return core::degrees(point.azimuth_rad); });
+  REQUIRE(mark);
+  CHECK(mark->from == pixel_of(scale, -20.0));
+  CHECK(mark->tip == pixel_of(scale, -1.0));
+  CHECK(mark->to == pixel_of(scale, 18.0));
 }
 
 TEST_CASE("A runway's place in the picture: range, azimuth, elevation of what the sensor sees",
