@@ -5,21 +5,18 @@
 
 namespace fanbeam::renderer {
 
+double NrcsTable::sine_of(int index) {
+  if (index < kCoarse) return index / kFinePer;
+  if (index < kSteep) return (index - kCoarseAt0) / kCoarsePer;
+  return std::min((index - kSteepAt0) / kSteepPer, 1.0);
+}
+
 NrcsTable::NrcsTable(const materials::NrcsCurve& nrcs) {
   const auto ratio = [&nrcs](double sine) { return nrcs.sigma0(sine) / sine; };
-  // At 0 the limit, unless it is infinite.
-  const auto lowest = [&ratio](double first_sine) {
-    return std::min(ratio(first_sine * 1e-9), ratio(first_sine));
-  };
   values_.reserve(kEntries);
-  for (int i = 0; i < kCoarseEntries; ++i) {
-    const double sine = std::min(static_cast<double>(i) / kSteps, 1.0);
-    values_.push_back(i == 0 ? lowest(1.0 / kSteps) : ratio(sine));
-  }
-  for (int i = 0; i <= kFineSteps; ++i) {
-    const double sine = kFineBelow * i / kFineSteps;
-    values_.push_back(i == 0 ? lowest(kFineBelow / kFineSteps) : ratio(sine));
-  }
+  // At 0 the limit, unless it is infinite.
+  values_.push_back(std::min(ratio(sine_of(1) * 1e-9), ratio(sine_of(1))));
+  for (int i = 1; i < kEntries; ++i) values_.push_back(ratio(sine_of(i)));
   const auto [least, most] = std::minmax_element(values_.begin(), values_.end());
   constexpr double kRounding = 1e-14;
   // Exactly even where sigma0 is proportional to sin(psi).
