@@ -57,9 +57,10 @@ VerticalPart vertical_part(const sensors::AntennaFrame& frame, double azimuth_ra
 }
 
 // Where an azimuth meets what lies `lower_m` below, `range_m` away: above its lowest direction, and
-// below. Straight below, nearer.
+// below. In that direction where it is too near for any other.
 struct Meetings {
   double above_rad, below_rad;
+  bool too_near;
 
   double in_front_rad() const {
     return std::abs(above_rad) <= std::abs(below_rad) ? above_rad : below_rad;
@@ -71,7 +72,12 @@ Meetings meetings(const VerticalPart& part, double lower_m, double range_m) {
   const double half_rad = std::acos(std::clamp(down / std::max(part.rise(), 1e-9), -1.0, 1.0));
   const double highest_rad = std::atan2(part.up, part.along);
   return {std::remainder(highest_rad - half_rad, 2.0 * core::kPi),
-          std::remainder(highest_rad + half_rad, 2.0 * core::kPi)};
+          std::remainder(highest_rad + half_rad, 2.0 * core::kPi), down < -part.rise()};
+}
+
+// Rays per step need not be whole: steps, from 1 on, take turns.
+int rays_of_step(int step, double rays) {
+  return static_cast<int>(std::floor(step * rays) - std::floor((step - 1) * rays));
 }
 
 }  // namespace
@@ -199,37 +205,44 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
   glm::dvec2 heading = heading_at(frame, azimuth_rad, 0.0, surface);
   const double below_m = std::abs(world_.surfaces().height_above_ground_m(sensor));
   double drop_m = below_m, lower_m = below_m;  // the second one negative for ground above
+  bool too_near = false;                       // for this azimuth of a tilted antenna
   int step = 0;
   // Up from the lowest direction a row goes to the first step, which takes part of it for its own: a step
-  // more keeps that out of the gate.
+  // more keeps that out of the gate. The last step is as short as it must be.
   const bool bridge = way == Way::from_lowest && nearest_ == Nearest::first_cell;
   const double first_k = bridge ? -kMarginCells - 2.0 * stride : -kMarginCells;
-  for (double k = first_k; k <= gate.cells + kMarginCells; k += stride) {
+  const double last_k = gate.cells + kMarginCells;
+  for (double k = first_k; k <= last_k; k = k < last_k ? std::min(k + stride, last_k) : k + 1.0) {
     const double range_m = std::max(gate.minimum_m + gate.cell_m * k, 0.0);
     // A column of a tilted antenna, or a cone, runs over the ground in a curve: follow it.
     if (!level) {
       const Meetings meets = meetings(part, lower_m, range_m);
       const double to_rad = way == Way::in_front ? meets.in_front_rad() : meets.above_rad;
-      if (way == Way::from_lowest && std::abs(to_rad) > core::kPi / 2) continue;
+      if (way == Way::from_lowest && std::abs(to_rad) > core::kPi / 2) {
+        if (to_rad < 0.0) continue;
+        // The azimuth ends before this range, at the antenna's axis.
+        if (!bridge || k > -kMarginCells) add_until(end_rad, 1, sampling_.largest_step_rad, edges);
+        break;
+      }
+      // A cone has straight below in the lowest direction of every azimuth.
+      too_near = meets.too_near && surface == sensors::ScanSurface::plane;
       heading = heading_at(frame, azimuth_rad, to_rad, surface);
     }
     // The ground distance of a slant range needs the height there: the one of the step before is
-    // close enough. Nearer than the ground below there is the nadir.
+    // close enough. Nearer than the ground below there is the nadir, in another azimuth of a tilted
+    // antenna.
     const double distance_m = std::sqrt(std::max(range_m * range_m - drop_m * drop_m, 1e-6));
-    const double x_m = sensor.x + heading.x * distance_m;
-    const double y_m = sensor.y + heading.y * distance_m;
+    const double x_m = sensor.x + heading.x * distance_m, y_m = sensor.y + heading.y * distance_m;
     const std::optional<double> height_m = ground.height_at(x_m, y_m);
     // Beside the ground its border shows the way to it.
     const double up_m = height_m ? *height_m : ground.nearest_height(x_m, y_m);
     lower_m = sensor.z - up_m;
     drop_m = std::min(std::abs(lower_m), std::max(range_m, below_m));
     const glm::dvec3 relative_m(x_m - sensor.x, y_m - sensor.y, up_m - sensor.z);
-    const double elevation_rad = std::atan(slope_of(frame, relative_m, surface));
+    const double elevation_rad =
+        too_near ? part.lowest_rad() : std::atan(slope_of(frame, relative_m, surface));
     if (!height_m) continue;
-    // Rays per step need not be whole: steps take turns.
-    ++step;
-    const double rays = sampling_.rays_per_cell * stride;
-    const int parts = static_cast<int>(std::floor(step * rays) - std::floor((step - 1) * rays));
+    const int parts = rays_of_step(++step, sampling_.rays_per_cell * stride);
     if (edges.empty()) {
       edges.push_back(std::clamp(elevation_rad, lowest_rad_, end_rad));
     } else if (bridge && step == 1 && k < -kMarginCells) {

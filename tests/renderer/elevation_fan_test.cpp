@@ -15,16 +15,41 @@ namespace {
 
 // Of one azimuth, from `height_m` above a plane, `pitch_rad` nose up.
 std::vector<double> edges_of(const sensors::Sensor& sensor, double height_m, double pitch_rad,
-                             double azimuth_rad) {
+                             double azimuth_rad,
+                             const renderer::Sampling& sampling = renderer::sampling_for(4.0)) {
   const renderer::World world =
       tests::world(sensor, tests::ground(9000.0, 100.0, [](double, double) { return 0.0; }),
                    {materials::PhongNrcs(0.1, 0.1, 1.0)});
   renderer::FramePose pose = tests::level_pose(height_m);
   pose.q_NB = pose.q_NB * glm::angleAxis(pitch_rad, glm::dvec3(0.0, 1.0, 0.0));
   std::vector<double> edges;
-  const renderer::ElevationFan fan(world, renderer::sampling_for(4.0));
+  const renderer::ElevationFan fan(world, sampling);
   fan.place(renderer::antenna_of(sensor, pose), azimuth_rad, azimuth_rad, edges);
   return edges;
+}
+
+// Requires a narrow interval of `edges` around every direction of the beam that meets the plane in the
+// gate, but for the last of it; how many were tried.
+int directions_held(const sensors::Sensor& sensor, double height_m, double azimuth_rad,
+                    const std::vector<double>& edges) {
+  const sensors::AntennaFrame antenna = renderer::antenna_of(sensor, tests::level_pose(height_m));
+  const double reach_rad = sensors::reach_rad(sensor.antenna.elevation) - 1e-3;
+  int tried = 0;
+  for (double beside_rad = -reach_rad; beside_rad < reach_rad; beside_rad += 0.01) {
+    const double elevation_rad = sensor.antenna.boresight_elevation_rad + beside_rad;
+    const double down =
+        -sensors::direction(antenna, azimuth_rad, elevation_rad, sensor.scan.surface).z;
+    if (std::abs(elevation_rad) > core::kPi / 2 || !(down > 0.0)) continue;
+    const double range_m = height_m / down;
+    if (range_m < sensor.range.minimum_m || range_m >= 0.95 * sensor.range.maximum_m()) continue;
+    ++tried;
+    INFO("elevation " << core::degrees(elevation_rad) << " deg, " << range_m << " m");
+    const auto above = std::lower_bound(edges.begin(), edges.end(), elevation_rad);
+    REQUIRE(above != edges.begin());
+    REQUIRE(above != edges.end());
+    CHECK(*above - *(above - 1) <= 3.001e-3);
+  }
+  return tried;
 }
 
 }  // namespace
@@ -142,22 +167,64 @@ TEST_CASE("Fans of turned antennas hold the ground on both sides of the lowest d
                    << (surface == sensors::ScanSurface::cone));
       REQUIRE(edges.size() > 2);
       CHECK(std::is_sorted(edges.begin(), edges.end()));
-      const sensors::AntennaFrame antenna =
-          renderer::antenna_of(sensor, tests::level_pose(kAntenna_m));
-      const double reach_rad = sensors::reach_rad(sensor.antenna.elevation) - 1e-3;
-      int seen = 0;
-      for (double beside_rad = -reach_rad; beside_rad < reach_rad; beside_rad += 0.01) {
-        const double elevation_rad = sensor.antenna.boresight_elevation_rad + beside_rad;
-        const double down = -sensors::direction(antenna, kAzimuth_rad, elevation_rad, surface).z;
-        if (!(down * 0.95 * sensor.range.maximum_m() > kAntenna_m)) continue;
-        ++seen;
-        INFO("elevation " << elevation_rad);
-        const auto above = std::lower_bound(edges.begin(), edges.end(), elevation_rad);
-        REQUIRE(above != edges.begin());
-        REQUIRE(above != edges.end());
-        CHECK(*above - *(above - 1) <= 3.001e-3);
+      CHECK(directions_held(sensor, kAntenna_m, kAzimuth_rad, edges) > 5);
+    }
+}
+
+// Straight below lies in one azimuth of a tilted antenna: the others begin beside it, lower or higher in
+// elevation.
+TEST_CASE("Fans of tilted antennas hold the ground of gates that begin before the ground below",
+          "[elevation_fan]") {
+  struct Case {
+    double roll_deg, pitch_deg, boresight_deg, reach_deg, height_m;
+  };
+  for (const Case& of : {Case{25.0, 0.0, -35.0, 35.0, 300.0},
+                         {30.0, 0.0, -40.0, 36.0, 150.0},
+                         {45.0, 0.0, -40.0, 36.0, 150.0},
+                         {60.0, 0.0, 0.0, 60.0, 30.0},
+                         {120.0, 0.0, 0.0, 60.0, 30.0},
+                         // To the antenna's own down axis, before and behind straight below.
+                         {0.0, -10.0, -50.0, 40.0, 100.0},
+                         {0.0, 10.0, -50.0, 40.0, 100.0},
+                         {-30.0, -20.0, -50.0, 50.0, 100.0}})
+    for (const sensors::ScanSurface surface :
+         {sensors::ScanSurface::plane, sensors::ScanSurface::cone}) {
+      sensors::Sensor sensor = tests::hivision(8);
+      sensor.scan.surface = surface;
+      sensor.scan.stabilised = false;
+      sensor.antenna.boresight_elevation_rad = core::radians(of.boresight_deg);
+      sensor.antenna.elevation.half_power_width_rad = core::radians(40.0);
+      sensor.antenna.elevation.cut_rad = core::radians(of.reach_deg);
+      sensor.mounting.roll_rad = core::radians(of.roll_deg);
+      sensor.mounting.pitch_rad = core::radians(of.pitch_deg);
+      sensor.range.minimum_m = of.height_m / 2.0;
+      sensor.range.cells = 60;
+      int held = 0;
+      for (const double azimuth_rad : {-0.4, 0.0, 0.2}) {
+        INFO("roll " << of.roll_deg << ", pitch " << of.pitch_deg << ", azimuth " << azimuth_rad
+                     << ", cone " << (surface == sensors::ScanSurface::cone));
+        const std::vector<double> edges = edges_of(sensor, of.height_m, 0.0, azimuth_rad);
+        CHECK(std::is_sorted(edges.begin(), edges.end()));
+        held += directions_held(sensor, of.height_m, azimuth_rad, edges);
       }
-      CHECK(seen > 5);
+      CHECK(held > 100);
+    }
+}
+
+TEST_CASE("Fans of few rays reach the end of the gate, whatever the number of its cells",
+          "[elevation_fan]") {
+  for (const double rays_per_cell : {1.0, 0.3, 0.125})
+    for (const int cells : {1, 2, 11, 16, 18, 22, 24, 524}) {
+      sensors::Sensor sensor = tests::hivision(8);
+      sensor.range.cells = cells;
+      renderer::Sampling sampling;
+      sampling.rays_per_cell = rays_per_cell;
+      constexpr double kAntenna_m = 40.0;
+      const std::vector<double> edges = edges_of(sensor, kAntenna_m, 0.0, 0.0, sampling);
+      INFO(rays_per_cell << " rays a cell, " << cells << " cells");
+      REQUIRE(edges.size() > 2);
+      CHECK(edges.back() >=
+            -std::asin(kAntenna_m / (sensor.range.maximum_m() + sensor.range.cell_m)));
     }
 }
 

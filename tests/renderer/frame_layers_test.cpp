@@ -394,6 +394,21 @@ TEST_CASE("Where bounces are all there is their share is one at any sampling", "
   }
 }
 
+TEST_CASE("Rays tell all of a plain as lit, whatever the number of range cells", "[frame_layers]") {
+  for (const int cells : {1, 2, 5, 11, 16, 18, 24}) {
+    sensors::Sensor sensor = tests::hivision(kLayerColumns);
+    sensor.range.minimum_m = 400.0;
+    sensor.range.cells = cells;
+    renderer::World world = tests::world(
+        sensor, tests::ground(4000.0, 50.0, [](double, double) { return 0.0; }), {kGrass, kBright});
+    leave_to_rays(world);
+    const renderer::LayerSet truth = rendered(world, renderer::sampling_for(4.0)).layers->bscope;
+    INFO(cells << " cells");
+    CHECK(*std::min_element(truth.visibility.begin(), truth.visibility.end()) == 1.0F);
+    CHECK(*std::min_element(truth.nrcs.begin(), truth.nrcs.end()) > 0.0F);
+  }
+}
+
 // Of a rolled antenna every column has a horizon of its own.
 TEST_CASE("All of a plain is lit for a rolled antenna", "[frame_layers]") {
   sensors::Sensor sensor = tests::hivision(160);

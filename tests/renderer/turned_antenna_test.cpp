@@ -1,4 +1,7 @@
-// Antennas that are inverted, or look straight down: range does not rise with elevation there.
+// Antennas that are inverted, look straight down or are banked: range does not rise with elevation there,
+// or not from straight below on.
+#include <algorithm>
+
 #include "core/pose.h"
 #include "tests/renderer/converged_rays.h"
 
@@ -24,6 +27,17 @@ void check_alike(const tests::Difference& apart, double most_grey) {
   CHECK(apart.bscope_rms < most_grey);
   CHECK(apart.cscope_rms < most_grey);
   CHECK(std::abs(apart.mean_dB) < 0.1);
+}
+
+// Over what holds a hundredth of the largest or more.
+double largest_apart_dB(const std::vector<double>& found, const std::vector<double>& expected) {
+  const double least = 0.01 * *std::max_element(expected.begin(), expected.end());
+  double largest_dB = 0.0;
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    if (expected[i] > least)
+      largest_dB = std::max(largest_dB,
+                            std::abs(10.0 * std::log10(std::max(found[i], 1e-300) / expected[i])));
+  return largest_dB;
 }
 
 }  // namespace
@@ -74,4 +88,42 @@ TEST_CASE("An antenna that looks straight down sees by rays and by slices before
     return sum;
   };
   CHECK(half_W_m3(80) / half_W_m3(0) == Approx(1.0).epsilon(0.0).margin(0.3));
+}
+
+// Straight below lies in another azimuth than what is seen next to it.
+TEST_CASE(
+    "A banked antenna sees by rays, and in the reference, what it sees by slices from before the "
+    "ground below on",
+    "[turned_antenna]") {
+  struct Case {
+    double roll_deg, boresight_deg, reach_deg, height_m;
+  };
+  for (const Case& of : {Case{25.0, -35.0, 35.0, 300.0}, {45.0, -40.0, 36.0, 150.0}}) {
+    sensors::Sensor sensor = not_stabilised();
+    sensor.scan.field_of_view_rad = core::radians(40.0);
+    sensor.scan.columns = 10;
+    sensor.antenna.azimuth.half_power_width_rad = core::radians(4.0);
+    sensor.antenna.azimuth.cut_rad = core::radians(6.0);
+    sensor.antenna.elevation.half_power_width_rad = core::radians(40.0);
+    sensor.antenna.elevation.cut_rad = core::radians(of.reach_deg);
+    sensor.antenna.boresight_elevation_rad = core::radians(of.boresight_deg);
+    sensor.range.minimum_m = of.height_m / 2.0;
+    sensor.range.cell_m = 10.0;
+    sensor.range.cells = 40;
+    sensor.display.cscope_top_rad = core::radians(of.boresight_deg + of.reach_deg);
+    sensor.display.cscope_span_rad = core::radians(2.0 * of.reach_deg);
+    sensor.display.cscope_rows = 40;
+    const renderer::World world = tests::world(sensor, plain(), meadow_and_wall());
+    renderer::FramePose pose = tests::level_pose(of.height_m);
+    pose.q_NB = core::quaternion_from({core::radians(of.roll_deg), 0.0, 0.0});
+    const tests::Powers slices = tests::render(world, renderer::profile_sampling_for(32.0), pose);
+    for (const renderer::Sampling& sampling :
+         {renderer::sampling_for(64.0), renderer::reference_sampling(1, 1)}) {
+      INFO("roll " << of.roll_deg << ", passes " << sampling.jittered_passes);
+      const tests::Powers rays = tests::render(world, sampling, pose);
+      // Where the gate begins behind the ground below: 0.01 and 0.2 dB.
+      CHECK(largest_apart_dB(rays.bscope_W, slices.bscope_W) < 0.5);
+      CHECK(largest_apart_dB(rays.cscope_W_m3, slices.cscope_W_m3) < 1.0);
+    }
+  }
 }
