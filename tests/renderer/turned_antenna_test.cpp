@@ -4,6 +4,7 @@
 
 #include "core/pose.h"
 #include "tests/renderer/converged_rays.h"
+#include "tests/renderer/values.h"
 
 using namespace fanbeam;
 
@@ -126,4 +127,32 @@ TEST_CASE(
       CHECK(largest_apart_dB(rays.cscope_W_m3, slices.cscope_W_m3) < 1.0);
     }
   }
+}
+
+// Its azimuth is how far down it looks: a slice lies in one for each range, whatever its width.
+TEST_CASE("A cone scan on its side sees by slices what it sees in the reference",
+          "[turned_antenna]") {
+  sensors::Sensor sensor = not_stabilised();
+  sensor.scan.surface = sensors::ScanSurface::cone;
+  sensor.scan.field_of_view_rad = core::radians(60.0);
+  sensor.scan.columns = 15;
+  sensor.antenna.azimuth.half_power_width_rad = core::radians(4.0);
+  sensor.antenna.azimuth.cut_rad = core::radians(6.0);
+  sensor.antenna.boresight_elevation_rad = 0.0;
+  sensor.mounting.roll_rad = core::kPi / 2;
+  sensor.range.minimum_m = 100.0;
+  sensor.range.cell_m = 10.0;
+  sensor.range.cells = 40;
+  sensor.display.cscope_top_rad = core::radians(10.0);
+  sensor.display.cscope_span_rad = core::radians(20.0);
+  sensor.display.cscope_rows = 40;
+  const renderer::World world = tests::world(sensor, plain(), meadow_and_wall());
+  const renderer::FramePose pose = tests::level_pose(60.0);
+  const tests::Powers slices = tests::render(world, renderer::profile_sampling_for(32.0), pose);
+  const tests::Powers rays = tests::render(world, renderer::reference_sampling(1, 4), pose);
+  CHECK(tests::total(slices.bscope_W) / tests::total(rays.bscope_W) ==
+        Approx(1.0).epsilon(0.0).margin(0.01));
+  // A cell ends inside a sub-column, which is half a degree of elevation.
+  CHECK(largest_apart_dB(slices.bscope_W, rays.bscope_W) < 1.0);
+  CHECK(largest_apart_dB(slices.cscope_W_m3, rays.cscope_W_m3) < 1.5);
 }

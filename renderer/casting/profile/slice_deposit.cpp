@@ -141,7 +141,8 @@ SliceDeposit::Sweep SliceDeposit::sweep_of(const Slice& slice, const PiecePowers
   const double turn_f = distance_m * glm::dot(clockwise, antenna_.forward);
   const double turn_r = distance_m * glm::dot(clockwise, antenna_.right);
   const double level2 = f * f + r * r, upright = std::sqrt(f * f + u * u);
-  const double azimuth_rad = cone ? std::asin(r / range_m) : std::atan2(r, f);
+  const double azimuth_rad =
+      cone ? std::asin(std::clamp(r / range_m, -1.0, 1.0)) : std::atan2(r, f);
   const double turn = cone ? turn_r / upright : (f * turn_r - r * turn_f) / level2;
   const double half_rad = std::abs(turn) * slice.width_rad / 2;
   return {
@@ -158,8 +159,7 @@ void SliceDeposit::add_across(const VisiblePieces& pieces, const Slice& slice,
     if (powers.kind[i] == PiecePowers::two_cells || powers.kind[i] == PiecePowers::many_cells)
       continue;
     const Sweep sweep = sweep_of(slice, powers, i, bins);
-    // No width: behind the antenna, or that on its side, where there is no azimuth to tell.
-    if (!(sweep.to > sweep.from)) continue;
+    if (!(sweep.solid_angle_ratio > 0.0)) continue;
     Rows rows{powers.high_row[i], powers.low_row[i]};
     if (cone) {
       const double near_row = cone_row(slice, pieces.near_distance_m[i], pieces.near_height_m[i]);
@@ -169,10 +169,13 @@ void SliceDeposit::add_across(const VisiblePieces& pieces, const Slice& slice,
     if (rows.low - rows.high > 1.0) rows.tilt = tilt_of(pieces, weights, powers, i);
     const int first = std::max(static_cast<int>(std::floor(sweep.from)), 0);
     const int last = std::min(static_cast<int>(std::floor(sweep.to)), bins.sub_columns - 1);
+    const double width = sweep.to - sweep.from;
     for (int sub = first; sub <= last; ++sub) {
       const double inside =
           std::min(sweep.to, sub + 1.0) - std::max(sweep.from, static_cast<double>(sub));
-      const double share = sweep.solid_angle_ratio * inside / (sweep.to - sweep.from);
+      // Of an antenna on its side the wedge may lie in one azimuth.
+      const double share =
+          width > 0.0 ? sweep.solid_angle_ratio * inside / width : sweep.solid_angle_ratio;
       add_to_sub_column(pieces, powers, i, rows, share, sub, bins);
     }
   }

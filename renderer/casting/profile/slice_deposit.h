@@ -42,11 +42,11 @@ class SliceDeposit {
   double tilt_of(const VisiblePieces& pieces, const SineWeights& weights, const PiecePowers& powers,
                  int i) const;
 
-  // From and to in sub-columns; none where the two are equal.
+  // From and to in sub-columns.
   struct Sweep {
     double from = 0.0, to = 0.0;
-    double solid_angle_ratio =
-        0.0;  // of the antenna's to the slice's coordinates, times a cone's gain
+    // Of the antenna's to the slice's coordinates, times a cone's gain; 0 behind the antenna.
+    double solid_angle_ratio = 0.0;
   };
   // In rows of the picture.
   struct Rows {
