@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/units.h"
 #include "tests/renderer/usual_world.h"
 
 using namespace fanbeam;
@@ -57,6 +58,35 @@ TEST_CASE("M02 the dark half of a scene is the noise-only picture, or the floor,
       }
       CHECK(lit_grey > 50.0);
     }
+}
+
+// Where the pattern ends at full gain, a millionth of it, returned by all above, showed as grey 46.
+TEST_CASE("Nothing above an elevation beam with sharp edges returns anything",
+          "[dark_and_unseen]") {
+  sensors::Sensor sensor = tests::hivision(8);
+  sensors::BeamCut& elevation = sensor.antenna.elevation;
+  elevation.shape = sensors::BeamCut::Shape::table;
+  elevation.cut_rad = core::radians(8.0);
+  elevation.table_angle_rad = {-elevation.cut_rad, elevation.cut_rad};
+  elevation.table_gain = {1.0, 1.0};
+  sensor.antenna.boresight_elevation_rad = core::radians(-20.0);
+  // It ends at -12 deg, 289 m away.
+  sensor.range.minimum_m = 300.0;
+  sensor.range.cells = 60;
+  for (const bool cone : {false, true}) {
+    sensor.scan.surface = cone ? sensors::ScanSurface::cone : sensors::ScanSurface::plane;
+    const renderer::World world =
+        tests::world(sensor, tests::ground(1000.0, 50.0, [](double, double) { return 0.0; }),
+                     {kGrass}, {tests::box({-20.0, 500.0, -2.0}, {20.0, 520.0, 25.0}, 0)});
+    for (const renderer::Sampling& sampling :
+         {renderer::sampling_for(4.0), renderer::profile_sampling_for(4.0)}) {
+      INFO("cone " << cone << ", slices " << (sampling.caster == renderer::CasterKind::profile));
+      const renderer::Frame frame =
+          renderer::render_frame(world, sampling, {}, {}, tests::level_pose(kHeight_m));
+      CHECK(*std::max_element(frame.bscope_W.begin(), frame.bscope_W.end()) == 0.0);
+      CHECK(*std::max_element(frame.cscope_W_m3.begin(), frame.cscope_W_m3.end()) == 0.0);
+    }
+  }
 }
 
 TEST_CASE("S05 targets abeam, behind and at the antenna are not drawn, and are counted",

@@ -157,7 +157,7 @@ FANBEAM_HOT(void, weigh,
   const In nrcs = tables.nrcs();
   const double along = weights.along, up = weights.up;
   const double lowest_sine = tables.lowest_sine(), per_sine = tables.steps_per_sine();
-  constexpr double kLastStep = PowerTables::kSineSteps - 1e-6;
+  constexpr double kLastStep = PowerTables::kSineSteps;
   const int count = pieces.count;
   FANBEAM_INDEPENDENT
   for (int i = 0; i < count; ++i) {

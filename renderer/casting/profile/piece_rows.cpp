@@ -48,7 +48,7 @@ FANBEAM_HOT(void, place_anywhere,
             (tables, weights, pieces, powers)) {
   const In row = tables.row();
   const double lowest_sine = tables.lowest_sine(), per_sine = tables.steps_per_sine();
-  constexpr double kLastStep = PowerTables::kSineSteps - 1e-6;
+  constexpr double kLastStep = PowerTables::kSineSteps;
   const auto row_of = [=](double sine) {
     const double at = (sine - lowest_sine) * per_sine;
     const double above = at > 0.0 ? at : 0.0;

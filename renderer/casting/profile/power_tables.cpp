@@ -21,6 +21,7 @@ PowerTables::PowerTables(const World& world) {
   top_rad_ = display.cscope_top_rad;
   rows_per_rad_ = display.cscope_rows / display.cscope_span_rad;
   steps_per_sine_ = kSineSteps / (highest_sine_ - lowest_sine_);
+  // One more than the last: who interpolates there looks at the next.
   for (int i = 0; i <= kSineSteps + 1; ++i) {
     const double sine =
         std::clamp(lowest_sine_ + std::min(i, kSineSteps) / steps_per_sine_, -1.0, 1.0);
@@ -36,7 +37,7 @@ PowerTables::PowerTables(const World& world) {
 }
 
 double PowerTables::look_up(const std::vector<double>& table, double sine) const {
-  const double at = std::clamp((sine - lowest_sine_) * steps_per_sine_, 0.0, kSineSteps - 1e-6);
+  const double at = std::clamp((sine - lowest_sine_) * steps_per_sine_, 0.0, double{kSineSteps});
   const auto step = static_cast<std::size_t>(at);
   return table[step] + (at - static_cast<double>(step)) * (table[step + 1] - table[step]);
 }
