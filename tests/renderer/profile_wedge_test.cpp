@@ -105,6 +105,25 @@ TEST_CASE("A front sends back what its width does, wherever slices cut it", "[pr
   }
 }
 
+// Whole groups of sub-columns reach past straight behind there, where headings jump.
+TEST_CASE("A front is not lost in columns of tens of degrees", "[profile]") {
+  struct Case {
+    double field_of_view_deg;
+    int columns;
+  };
+  const Front front{{-4.0, 603.0}, {4.0, 603.0}};
+  for (const Case& of : {Case{115.0, 3}, {118.0, 3}, {118.0, 1}}) {
+    sensors::Sensor sensor = near_sensor();
+    sensor.scan.field_of_view_rad = core::radians(of.field_of_view_deg);
+    sensor.scan.columns = of.columns;
+    sensor.antenna.azimuth.half_power_width_rad = core::radians(10.0);
+    sensor.antenna.azimuth.cut_rad = core::radians(15.0);
+    INFO(of.columns << " columns");
+    CHECK(found_W(lone_building(sensor, front), 0.0) / expected_W(sensor, front, 0.0) ==
+          Approx(1.0).epsilon(0.0).margin(8e-3));
+  }
+}
+
 TEST_CASE("An oblique wall falls into range cells as its heights and headings do", "[profile]") {
   // In each wedge ranges differ by the wall's height and across it: a cell that holds no more than
   // the wall's highest corner gets the thin end of a trapezoid. An even spread puts up to 1.7 times

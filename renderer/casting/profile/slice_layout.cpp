@@ -56,7 +56,10 @@ std::vector<Slice> level_slices(const World& world, int per_sub_column,
     const glm::dvec2 along = horizontal(
         sensors::direction(antenna, azimuth_rad, world.sensor.antenna.boresight_elevation_rad,
                            world.sensor.scan.surface));
-    slices.push_back({along, turn_rad(forward, along), width_rad});
+    double heading_rad = turn_rad(forward, along);
+    // What few wide columns are filled up with, to whole groups, may lie beyond straight behind.
+    if (!slices.empty() && heading_rad < slices.back().heading_rad) heading_rad += 2.0 * core::kPi;
+    slices.push_back({along, heading_rad, width_rad});
   }
   return slices;
 }
