@@ -31,27 +31,55 @@ class RayAim {
 
   // Fills directions and Jacobians.
   void point(RayBatch& batch) const {
-    if (cone_) {
-      point_all<true, false>(batch);
-    } else if (level_) {
-      point_all<false, true>(batch);
+    unsigned wide = 0;
+    for (int i = 0; i < kBatchRays; ++i)
+      wide |= std::abs(batch.offset_rad[i]) > kSmallOffset_rad ? 1U : 0U;
+    if (wide != 0) {
+      point_any<true>(batch);
     } else {
-      point_all<false, false>(batch);
+      point_any<false>(batch);
     }
   }
 
  private:
-  template <bool cone, bool level>
+  // To there the second order leaves 2e-8, no more than floats do.
+  static constexpr double kSmallOffset_rad = 5e-3;
+
+  // From cosine and sine of an angle to those of one `by_rad` larger.
+  template <bool wide>
+  static void turn(double by_rad, double& cosine, double& sine) {
+    const double c = cosine, s = sine, d = by_rad;
+    if constexpr (wide) {
+      const double cd = std::cos(d), sd = std::sin(d);
+      cosine = c * cd - s * sd;
+      sine = s * cd + c * sd;
+    } else {
+      cosine = c - s * d - c * d * d / 2;
+      sine = s + c * d - s * d * d / 2;
+    }
+  }
+
+  template <bool wide>
+  void point_any(RayBatch& batch) const {
+    if (cone_) {
+      point_all<true, false, wide>(batch);
+    } else if (level_) {
+      point_all<false, true, wide>(batch);
+    } else {
+      point_all<false, false, wide>(batch);
+    }
+  }
+
+  template <bool cone, bool level, bool wide>
   void point_all(RayBatch& batch) const {
     const glm::dvec3 f = antenna_.forward, r = antenna_.right, u = antenna_.up;
     for (int i = 0; i < kBatchRays; ++i) {
       const double c = batch.column_cosine[i], s = batch.column_sine[i], d = batch.offset_rad[i];
-      // Second order in an offset below 2.5 mrad leaves 3e-9.
-      const double ca = c - s * d - c * d * d / 2;
-      const double sa = s + c * d - s * d * d / 2;
+      double ca = c, sa = s;
+      turn<wide>(d, ca, sa);
       double ce = 0.0, se = 0.0;
       core::series_cosine_sine(batch.elevation_rad[i], ce, se);  // finer than the floats below
-      if constexpr (!level) follow_range<cone>(c, s, d, ce, se);
+      if constexpr (!level) follow_range<cone, wide>(c, s, d, ce, se);
       const AxisWeights w = direction_weights(cone, ce, se, ca, sa);
       batch.direction_x[i] = static_cast<float>(w.forward * f.x + w.right * r.x + w.up * u.x);
       batch.direction_y[i] = static_cast<float>(w.forward * f.y + w.right * r.y + w.up * u.y);
@@ -68,7 +96,7 @@ class RayAim {
   // Where the antenna is tilted, or the scan a cone, a step in azimuth alone would change the range
   // of level ground: the elevation then goes along with it, so that rays of one interval stay in
   // its cells.
-  template <bool cone>
+  template <bool cone, bool wide>
   void follow_range(double column_cosine, double column_sine, double offset_rad, double& ce,
                     double& se) const {
     const auto upwards = [this](const AxisWeights& w) {
@@ -79,10 +107,7 @@ class RayAim {
         upwards(elevation_derivative(cone, ce, se, column_cosine, column_sine));
     // Rolled on its side, range no longer follows elevation.
     const bool upright = std::abs(by_elevation) >= 0.1;
-    const double d = upright ? -by_azimuth / by_elevation * offset_rad : 0.0;
-    const double c = ce, s = se;
-    ce = c - s * d - c * d * d / 2;
-    se = s + c * d - s * d * d / 2;
+    turn<wide>(upright ? -by_azimuth / by_elevation * offset_rad : 0.0, ce, se);
   }
 
   const sensors::AntennaFrame& antenna_;
