@@ -37,42 +37,15 @@ void check(const PpiView& view, double heading_rad) {
                             "above 0");
 }
 
-// A B-scope that answers for any range and azimuth.
-class CellReader {
- public:
-  CellReader(const Sensor& sensor, std::span<const double> grey) : sensor_(sensor), grey_(grey) {}
-
-  double nearest(double range_m, double azimuth_rad) const {
-    const int row = range_row(sensor_.range, range_m);
-    const int column = azimuth_column(sensor_.scan, azimuth_rad);
-    return row == kOutside || column == kOutside ? 0.0 : at(row, column);
-  }
-
-  double bilinear(double range_m, double azimuth_rad) const {
-    const int row = range_row(sensor_.range, range_m);
-    const int column = azimuth_column(sensor_.scan, azimuth_rad);
-    if (row == kOutside || column == kOutside) return 0.0;
-    const double rows_off = (range_m - range_middle_m(sensor_.range, row)) / sensor_.range.cell_m;
-    const double columns_off =
-        (azimuth_rad - column_middle_rad(sensor_.scan, column)) / sensor_.scan.column_width_rad();
-    const int other_row = std::clamp(row + (rows_off < 0.0 ? -1 : 1), 0, sensor_.range.cells - 1);
-    const int other_column =
-        std::clamp(column + (columns_off < 0.0 ? -1 : 1), 0, sensor_.scan.columns - 1);
-    const double t = std::abs(rows_off);
-    const double s = std::min(1.0, std::abs(columns_off));
-    return (1.0 - t) * ((1.0 - s) * at(row, column) + s * at(row, other_column)) +
-           t * ((1.0 - s) * at(other_row, column) + s * at(other_row, other_column));
-  }
-
- private:
-  double at(int row, int column) const {
-    return grey_[static_cast<std::size_t>(row) * static_cast<std::size_t>(sensor_.scan.columns) +
-                 static_cast<std::size_t>(column)];
-  }
-
-  const Sensor& sensor_;
-  std::span<const double> grey_;
-};
+// Of the cell at any range and azimuth; 0 outside.
+double grey_at(const Sensor& sensor, std::span<const double> grey, double range_m,
+               double azimuth_rad) {
+  const int row = range_row(sensor.range, range_m);
+  const int column = azimuth_column(sensor.scan, azimuth_rad);
+  if (row == kOutside || column == kOutside) return 0.0;
+  return grey[static_cast<std::size_t>(row) * static_cast<std::size_t>(sensor.scan.columns) +
+              static_cast<std::size_t>(column)];
+}
 
 // Whole pixels of `size_px` that lie beyond `needed_px`; an even number, so that a picture of even
 // size stays one, as films ask for.
@@ -134,8 +107,6 @@ std::vector<double> ppi_grey(const Sensor& sensor, std::span<const double> bscop
       static_cast<std::size_t>(sensor.range.cells) * static_cast<std::size_t>(sensor.scan.columns);
   if (bscope_grey.size() != cells)
     throw core::InternalError("the B-scope grey does not have the size of the sensor's B-scope");
-  const CellReader reader(sensor, bscope_grey);
-  const bool bilinear = view.resampling == PpiView::Resampling::bilinear;
   const double turn_rad = view.up == PpiView::Up::north ? heading_rad : 0.0;
   const auto width = static_cast<std::size_t>(view.columns);
   std::vector<double> grey(static_cast<std::size_t>(view.rows) * width);
@@ -147,8 +118,7 @@ std::vector<double> ppi_grey(const Sensor& sensor, std::span<const double> bscop
           (static_cast<double>(column) + 0.5 - view.antenna_column) * view.metres_per_pixel;
       const double range_m = std::hypot(right_m, up_m);
       const double azimuth_rad = core::wrap_pi_rad(std::atan2(right_m, up_m) - turn_rad);
-      grey[row * width + column] =
-          bilinear ? reader.bilinear(range_m, azimuth_rad) : reader.nearest(range_m, azimuth_rad);
+      grey[row * width + column] = grey_at(sensor, bscope_grey, range_m, azimuth_rad);
     }
   });
   return grey;

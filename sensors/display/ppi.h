@@ -1,5 +1,5 @@
-// Metric plan view (PPI) of a B-scope: each pixel asks which cell of the B-scope lies there, so
-// there are no gaps.
+// Metric plan view (PPI) of a B-scope: each pixel has the value of the B-scope's cell that holds its
+// middle, so there are no gaps.
 //
 // Slant range is drawn as distance: at height h a point at distance d appears h^2 / (2 d) too far,
 // 18 m for 120 m at 400 m. Azimuth is drawn as the angle in the ground plane (exact for a
@@ -17,12 +17,7 @@ namespace fanbeam::sensors {
 
 struct PpiView {
   enum class Up { north, track };  // track: the antenna's forward axis points up
-  // nearest: the value of the cell that holds the pixel's middle. bilinear: between the middles of
-  // the four nearest cells in range and azimuth; edge cells hold their value out to the sector's
-  // border.
-  enum class Resampling { nearest, bilinear };
   Up up = Up::track;
-  Resampling resampling = Resampling::nearest;
   int columns = 0;  // 1 to 8192
   int rows = 0;
   double metres_per_pixel = 0.0;  // above 0
