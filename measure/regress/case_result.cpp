@@ -115,6 +115,11 @@ std::string sentence_of(const PictureResult& picture) {
   return picture.file + ": " + what_of(picture);
 }
 
+std::string shown_layer(const PictureResult& picture) {
+  const auto beyond = std::ranges::find(picture.layers, false, &LayerJudgement::within);
+  return beyond == picture.layers.end() ? "" : beyond->layer;
+}
+
 std::vector<SettingChange> changes_of(const CaseResult& result) {
   if (!result.approval || result.state == CaseState::failed) return {};
   return changes(*result.approval, result.now);

@@ -50,6 +50,10 @@ std::string_view name_of(CaseState state);
 std::string what_of(const PictureResult& picture);
 std::string sentence_of(const PictureResult& picture);
 
+// Of an EXR's layers the one that a page shows: the first beyond its tolerance. Empty where none is known
+// to be, and then the first that is there.
+std::string shown_layer(const PictureResult& picture);
+
 // Of a case with an approval, since then; none where it failed.
 std::vector<SettingChange> changes_of(const CaseResult& result);
 

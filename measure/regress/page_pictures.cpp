@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "core/colour_picture.h"
 #include "core/files.h"
@@ -12,23 +14,45 @@ namespace fs = std::filesystem;
 
 constexpr double kShownDecades = 6.0;  // below the brightest cell of both
 
-// The first layer in grey, 60 dB deep: EXR is nothing that a browser shows.
-core::Picture8 grey_of(const core::Image& image, double brightest) {
-  core::Picture8 picture{image.columns, image.rows, {}};
-  for (const double value : image.layers.front().values) {
-    const double decades = value > 0.0 ? std::log10(value / brightest) : -kShownDecades;
-    picture.pixels.push_back(static_cast<std::uint8_t>(
-        std::lround(255.0 * std::clamp(1.0 + decades / kShownDecades, 0.0, 1.0))));
-  }
-  return picture;
+const core::Image::Layer& layer_of(const core::Image& image, const std::string& name) {
+  const auto found = std::find_if(image.layers.begin(), image.layers.end(),
+                                  [&](const core::Image::Layer& l) { return l.name == name; });
+  return found == image.layers.end() ? image.layers.front() : *found;
 }
 
-double brightest_of(const core::Image& image) {
-  double brightest = 0.0;
-  for (const double value : image.layers.front().values)
-    if (std::isfinite(value)) brightest = std::max(brightest, value);
-  return brightest;
-}
+// Values in grey, as EXR is nothing that a browser shows: power 60 dB deep below the brightest cell,
+// all else, as angles and numbers of objects, from the least to the largest.
+class ShownScale {
+ public:
+  explicit ShownScale(session::DifferenceUnit unit)
+      : linear_(unit == session::DifferenceUnit::own) {}
+
+  void hold(const std::vector<double>& values) {
+    for (const double value : values) {
+      if (!std::isfinite(value)) continue;
+      low_ = std::min(low_, value);
+      high_ = std::max(high_, value);
+    }
+  }
+
+  core::Picture8 picture(const core::Image& image, const std::vector<double>& values) const {
+    core::Picture8 picture{image.columns, image.rows, {}};
+    for (const double value : values)
+      picture.pixels.push_back(
+          static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(share(value), 0.0, 1.0))));
+    return picture;
+  }
+
+ private:
+  double share(double value) const {
+    if (!std::isfinite(value)) return value > 0.0 ? 1.0 : 0.0;
+    if (linear_) return value > low_ ? (value - low_) / (high_ - low_) : 0.0;
+    return value > 0.0 ? 1.0 + std::log10(value / high_) / kShownDecades : 0.0;
+  }
+
+  bool linear_;
+  double low_ = std::numeric_limits<double>::max(), high_ = std::numeric_limits<double>::lowest();
+};
 
 // Layers that are beyond their tolerance; all of them would be a map too wide to look at.
 core::Image only_differing(core::Image image, const PictureResult& picture) {
@@ -72,14 +96,14 @@ class PageWriter {
   }
 
   void write_shown(const PictureResult& picture, bool before, bool now) const {
-    core::Image old_image, new_image;
-    if (before) old_image = core::read_image(approved_ / picture.file);
-    if (now) new_image = core::read_image(rendered_ / picture.file);
-    const double brightest =
-        std::max(before ? brightest_of(old_image) : 0.0, now ? brightest_of(new_image) : 0.0);
-    const double scale = brightest > 0.0 ? brightest : 1.0;
-    if (before) core::write_png(place(picture, PageSide::approved), grey_of(old_image, scale), {});
-    if (now) core::write_png(place(picture, PageSide::rendered), grey_of(new_image, scale), {});
+    std::vector<std::pair<PageSide, core::Image>> images;
+    if (before) images.emplace_back(PageSide::approved, core::read_image(approved_ / picture.file));
+    if (now) images.emplace_back(PageSide::rendered, core::read_image(rendered_ / picture.file));
+    const std::string name = layer_of(images.front().second, shown_layer(picture)).name;
+    ShownScale scale(session::difference_unit(picture.file, name));
+    for (const auto& [side, image] : images) scale.hold(layer_of(image, name).values);
+    for (const auto& [side, image] : images)
+      core::write_png(place(picture, side), scale.picture(image, layer_of(image, name).values), {});
   }
 
   void write_difference(const PictureResult& picture) const {

@@ -81,9 +81,12 @@ std::string view(const CaseResult& result, const PictureResult& picture, PageSid
   const std::string path = page_picture(result.folder, picture.file, side);
   if (!fs::exists(output / path)) return "";
   const bool map = side == PageSide::difference;
-  const char* caption = side == PageSide::approved   ? "approved"
+  std::string caption = side == PageSide::approved   ? "approved"
                         : side == PageSide::rendered ? "new"
                                                      : "where they differ";
+  // The map names its layers itself.
+  if (const std::string layer = shown_layer(picture); !map && picture.layers.size() > 1)
+    caption += ": " + markup_text(layer);
   const std::string shown = markup_text(path);
   return fmt::format(
       "<figure class=\"{}\"><a href=\"{}\"><img src=\"{}\" alt=\"{}: {}\"></a>"

@@ -157,6 +157,30 @@ TEST_CASE("A picture that differs is told with its figures, the setting that cha
         std::string::npos);
 }
 
+// The first by the alphabet was shown, whatever differed: black where nothing bounces.
+TEST_CASE("The page shows the layer that differs, from its least value to its largest",
+          "[regress]") {
+  Workplace place;
+  place.set_suite("products = [\"layers\"]");
+  require_exit(place.run(), 1);
+  require_exit(place.approve(), 0);
+  place.set_height("70.0");
+  require_exit(place.run(), 1);
+  const nlohmann::json one = place.only_case();
+  std::string differing;
+  for (const nlohmann::json& layer : picture(one, "layers/00000.exr")["layers"])
+    if (differing.empty() && layer["within"] == false) differing = layer["layer"];
+  CHECK(differing == "elevation_deg");
+  for (const char* side : {"approved", "new"}) {
+    const core::Image shown = core::read_image(place.out() / "pictures/grass/layers" /
+                                               (std::string("00000.exr.") + side + ".png"));
+    const auto [least, largest] = std::ranges::minmax(shown.layers.at(0).values);
+    CHECK(largest - least > 128.0);
+    CHECK(bytes_of(place.out() / "report.html").find(side + (": " + differing)) !=
+          std::string::npos);
+  }
+}
+
 TEST_CASE("A tolerance lets pass what it says, with its reason in the report", "[regress]") {
   const std::string loose =
       "[tolerance.bscope]\nrms = 200\nreason = \"loose on purpose\"\n"
