@@ -19,8 +19,6 @@ LayerDifference compare_layer(const Image::Layer& a, const Image::Layer& b, int 
   LayerDifference result;
   result.layer = a.name;
   result.cells = a.values.size();
-  std::vector<double> magnitudes;
-  magnitudes.reserve(result.cells);
   double sum = 0.0, squares = 0.0, sum_dB = 0.0, squares_dB = 0.0;
   for (std::size_t i = 0; i < result.cells; ++i) {
     const bool equal = a.values[i] == b.values[i];  // infinities too, and a NaN to nothing
@@ -32,10 +30,7 @@ LayerDifference compare_layer(const Image::Layer& a, const Image::Layer& b, int 
     sum += difference;
     squares += difference * difference;
     const double magnitude = magnitude_of(difference);
-    if (std::isfinite(magnitude))
-      magnitudes.push_back(magnitude);
-    else
-      ++result.not_finite;
+    if (!std::isfinite(magnitude)) ++result.not_finite;
     if (magnitude > result.largest) {
       result.largest = magnitude;
       result.largest_column = static_cast<int>(i) % columns;
@@ -61,12 +56,6 @@ LayerDifference compare_layer(const Image::Layer& a, const Image::Layer& b, int 
   result.rms = std::sqrt(squares / cells);
   result.mean_dB = sum_dB / positive;
   result.rms_dB = std::sqrt(squares_dB / positive);
-  if (!magnitudes.empty()) {
-    const double last = static_cast<double>(magnitudes.size()) - 1.0;
-    const auto at = magnitudes.begin() + static_cast<std::ptrdiff_t>(0.99 * last);
-    std::nth_element(magnitudes.begin(), at, magnitudes.end());
-    result.percentile_99 = *at;
-  }
   return result;
 }
 

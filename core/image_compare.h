@@ -16,8 +16,7 @@ struct LayerDifference {
   std::size_t changed = 0;     // by more than 1e-4 of the larger one, or of 1 where that is more
   double mean = 0.0;           // of B - A, in the layer's own unit (grey levels for 8-bit pictures)
   double rms = 0.0;
-  double percentile_99 = 0.0;  // of |B - A| where that is finite
-  double largest = 0.0;        // infinite where not
+  double largest = 0.0;  // of |B - A|; infinite where that is no finite number
   int largest_column = 0, largest_row = 0;
   // Power layers (positive floats): over cells positive in both, in dB.
   std::size_t both_positive = 0;

@@ -56,7 +56,6 @@ struct MapLayer {
   double limit = 1.0;
   double worst = 0.0;  // signed; infinite where one is dark
   int worst_column = 0, worst_row = 0;
-  std::size_t undefined = 0;
   int across = 1, down = 1;  // pixels of a cell
 };
 
@@ -72,10 +71,7 @@ MapLayer examined(const core::Image& a, const core::Image& b, const core::LayerD
   double largest = 0.0;  // that is finite: what the scale has to hold
   for (std::size_t i = 0; i < layer.a->size(); ++i) {
     const double difference = difference_of((*layer.a)[i], (*layer.b)[i], unit);
-    if (std::isnan(difference)) {
-      ++layer.undefined;
-      continue;
-    }
+    if (std::isnan(difference)) continue;
     if (std::isfinite(difference)) largest = std::max(largest, std::abs(difference));
     if (std::abs(difference) <= std::abs(layer.worst)) continue;
     layer.worst = difference;

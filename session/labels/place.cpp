@@ -42,13 +42,6 @@ std::optional<PictureSpot> Eye::in_bscope(const glm::dvec3& at_m) const {
   return bscope_spot(angles->azimuth_rad, glm::length(at_m - antenna_.position_m));
 }
 
-std::optional<PictureSpot> Eye::in_cscope(const glm::dvec3& at_m) const {
-  const auto angles = angles_of(at_m);
-  if (!angles) return std::nullopt;
-  return cscope_spot(angles->azimuth_rad, angles->elevation_rad,
-                     glm::length(at_m - antenna_.position_m));
-}
-
 bool Eye::sees(const glm::dvec3& at_m, double clearance_m) const {
   return !scene_.world.surfaces().occluded(antenna_.position_m, at_m, clearance_m);
 }

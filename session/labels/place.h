@@ -44,9 +44,8 @@ class Eye {
   Eye(const scenes::Scene& scene, const core::Pose& pose);
 
   PlaceLabel look_at(const glm::dvec3& at_m) const;
-  // The pictures' part alone.
+  // The B-scope's part alone.
   std::optional<PictureSpot> in_bscope(const glm::dvec3& at_m) const;
-  std::optional<PictureSpot> in_cscope(const glm::dvec3& at_m) const;
   bool sees(const glm::dvec3& at_m, double clearance_m = kSightClearance_m) const;
 
   const glm::dvec3& at_m() const { return antenna_.position_m; }
