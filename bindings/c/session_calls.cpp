@@ -1,5 +1,4 @@
 // Versions, opening and closing, and what a session says of itself.
-#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -8,9 +7,8 @@
 #include "bindings/c/handle.h"
 #include "bindings/c/last_call.h"
 #include "renderer/casting/sampling.h"
-#include "renderer/plan/caster_choice.h"
-#include "renderer/plan/plan.h"
 #include "sensors/display/grey_scale.h"
+#include "session/opening_words.h"
 #include "session/shipped.h"
 
 using namespace fanbeam;
@@ -50,37 +48,12 @@ std::vector<std::filesystem::path> folders_of(const fanbeam_setup& setup, Argume
   return folders;
 }
 
-void take_caster(const std::string& word, Arguments& arguments, session::Setup& settings) {
-  if (word.empty()) return;
-  const auto& words = renderer::kCasterWishes;
-  if (std::find(words.begin(), words.end(), word) == words.end())
-    return arguments.refuse(core::ErrorClass::ref, "setup.caster", "\"" + word + "\"",
-                            "rays, profile or auto");
-  settings.build.caster = renderer::caster_wish(word);
-}
-
 void take_sensor(const std::string& file, Arguments& arguments, session::Setup& settings) {
   settings.sensor = file;
   std::error_code refused;
   if (!file.empty() && !std::filesystem::is_regular_file(settings.sensor, refused))
     arguments.refuse(core::ErrorClass::io, "setup.sensor_file", "\"" + file + "\" not found",
                      "a sensor file");
-}
-
-// Of a realisation that was taken before.
-void take_effects(const std::string& text, Arguments& arguments, session::Setup& settings) {
-  if (text.empty()) return;
-  core::ProblemList found;
-  try {
-    settings.build.wishes = renderer::parse_effect_wishes(text);
-    if (settings.sample && !*settings.sample) renderer::refuse_draws(settings.build.wishes, found);
-  } catch (const core::InputError& error) {
-    found.append(error.problems());
-  }
-  for (core::Problem problem : found.all()) {
-    problem.field = "setup.effects";
-    arguments.problems().append({problem});
-  }
 }
 
 session::Setup settings_of(const fanbeam_setup& setup, Arguments& arguments) {
@@ -91,14 +64,14 @@ session::Setup settings_of(const fanbeam_setup& setup, Arguments& arguments) {
   settings.data_folders = folders_of(setup, arguments);
   take_sensor(bindings::text_of(setup.sensor_file), arguments, settings);
   settings.build.read.power = true;  // bscope_W and cscope_W_m3 of any frame
-  take_caster(bindings::text_of(setup.caster), arguments, settings);
   if (setup.realisation == FANBEAM_EXPECTED || setup.realisation == FANBEAM_SAMPLE)
     settings.sample = setup.realisation == FANBEAM_SAMPLE;
   else if (setup.realisation != FANBEAM_AS_SCENE)
     arguments.refuse(core::ErrorClass::range, "setup.realisation",
                      std::to_string(setup.realisation),
                      "FANBEAM_AS_SCENE, FANBEAM_EXPECTED or FANBEAM_SAMPLE");
-  take_effects(bindings::text_of(setup.effects), arguments, settings);
+  session::take_words(bindings::text_of(setup.effects), bindings::text_of(setup.caster), "setup.",
+                      settings, arguments.problems());
   settings.keeps_time_budget = !(setup.samples_per_cell > 0.0);
   settings.seed = setup.seed;
   if (setup.threads < 0 || setup.threads > 1024)

@@ -3,7 +3,6 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,10 +15,10 @@
 #include "core/parallel.h"
 #include "core/units.h"
 #include "renderer/plan/caster_choice.h"
-#include "renderer/plan/plan.h"
 #include "scenes/ground_below.h"
 #include "sensors/display/grey_scale.h"
 #include "session/labels/labels_json.h"
+#include "session/opening_words.h"
 #include "session/records/run_record.h"
 #include "session/sampling_choice.h"
 #include "session/shipped.h"
@@ -28,10 +27,6 @@ namespace fanbeam::bindings {
 namespace {
 
 namespace fs = std::filesystem;
-
-renderer::EffectWishes wishes_of(const std::string& effects) {
-  return effects.empty() ? renderer::EffectWishes{} : renderer::parse_effect_wishes(effects);
-}
 
 // What Scene is opened with, but for the folders of data: looked up and checked, all that is wrong
 // told together.
@@ -53,20 +48,10 @@ py::dict checked_setup(const py::handle& scene, const py::handle& sensor, const 
     session::check_data_folder(*folder, "data", problems);
   const auto wishes = value_of<std::string>(effects, "effects", problems);
   const auto drawn = optional_of<bool>(sample, "sample", problems);
-  core::ProblemList of_effects;
-  collect(of_effects, [&] {
-    const renderer::EffectWishes wanted = wishes_of(wishes);
-    if (drawn && !*drawn) renderer::refuse_draws(wanted, of_effects);
-  });
-  for (core::Problem problem : of_effects.all()) {
-    problem.field = "effects";
-    problems.append({problem});
-  }
   const auto word = value_of<std::string>(caster, "caster", problems);
-  const auto& words = renderer::kCasterWishes;
-  if (!word.empty() && std::find(words.begin(), words.end(), word) == words.end())
-    problems.error(core::ErrorClass::ref, {}, "caster", "\"" + word + "\"",
-                   "rays, profile or auto");
+  session::Setup taken;
+  taken.sample = drawn;
+  session::take_words(wishes, word, "", taken, problems);
   setup["effects"] = wishes;
   setup["caster"] = word;
   setup["sample"] = drawn;
@@ -88,13 +73,13 @@ std::unique_ptr<Scene> open(const fs::path& scene, const fs::path& shipped,
   setup.data_folders = data;
   setup.sensor = sensor;
   setup.build.read = {.power = true, .labels = true};  // any frame may be asked for both
-  setup.build.wishes = wishes_of(effects);
-  if (!caster.empty()) setup.build.caster = renderer::caster_wish(caster);
   setup.sample = sample;
   setup.keeps_time_budget = keeps_time_budget;
   setup.seed = seed;
   setup.threads = threads;
   core::ProblemList problems;
+  session::take_words(effects, caster, "", setup, problems);
+  problems.throw_if_errors();
   std::unique_ptr<Scene> opened;
   without_lock([&](const core::StopToken& stop) {
     const core::StopScope scope(stop);
