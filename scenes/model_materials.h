@@ -1,7 +1,8 @@
 // Materials that a model's own files describe (ASAM OpenMATERIAL 3D), beside those of the library.
 //
-// They look as their files say in every state of the weather: a wetted or snow-covered surface is
-// another material, and those files have none.
+// They look as their files say at the temperature of the scene's surfaces, in every state that the
+// weather leaves them in: a wetted or snow-covered surface is another material, and those files have
+// none.
 #pragma once
 
 #include <cstddef>
@@ -31,8 +32,7 @@ class ModelMaterials {
 
   struct Entry {
     std::string name;  // "car.glb:Steel"
-    materials::SurfaceModel surface;
-    std::optional<materials::SpecularSurface> mirror;
+    materials::OpenSurface surface;
   };
   const std::vector<Entry>& all() const { return entries_; }
   std::vector<std::filesystem::path> files() const;
@@ -47,5 +47,11 @@ class ModelMaterials {
   std::map<std::pair<Key, std::string>, std::optional<terrain::MaterialId>> ids_;
   std::vector<Entry> entries_;
 };
+
+// The same materials at the scene's temperature of now; nothing where all of them are as they were.
+// E-UNSUPPORTED for one that has no reflectivity then.
+std::optional<std::vector<ModelMaterials::Entry>> at_temperature_of(
+    const SceneDescription& scene, const std::vector<ModelMaterials::Entry>& entries,
+    core::ProblemList& problems);
 
 }  // namespace fanbeam::scenes

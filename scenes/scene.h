@@ -114,8 +114,9 @@ bool planned_by_flight(const SceneSetting& scene);
 
 // The same site under other conditions, planned anew; `scene` stays as it is. Throws InputError with
 // every problem: those of atmosphere::problems_in, E-UNSUPPORTED for another carrier or polarisation,
-// for a loss that the weather switches off (BuildOptions::wishes do that) and for slices that were
-// forced and no longer can show the scene, E-RANGE for a material that is not known in its new state;
+// for a loss that the weather switches off (BuildOptions::wishes do that), for a model's own material
+// that is not known at the new temperature and for slices that were forced and no longer can show the
+// scene, E-RANGE for a material that is not known in its new state;
 // warnings stay in `problems`. Cost: docs/performance-notes.md.
 std::unique_ptr<Scene> under_conditions(const Scene& scene, const Conditions& conditions,
                                         core::ProblemList& problems);

@@ -30,11 +30,11 @@ std::vector<SurfaceRecord> records_of(const SceneSetting& scene, materials::Surf
 
 void record_model_materials(const SceneSetting& scene, std::vector<SurfaceRecord>& surfaces) {
   const sensors::Waveform& waveform = scene.description.sensor.waveform;
-  for (const ModelMaterials::Entry& entry : scene.site->parts().model_materials)
+  for (const auto& [name, surface] : scene.site->parts().model_materials)
     surfaces.push_back(
-        {entry.name, entry.name, std::string(name_of(entry.surface)), "stated by the model's files",
-         validity_of(entry.surface).grazing_rad,
-         extrapolations_of(entry.surface, waveform.polarisation, waveform.frequency_Hz)});
+        {name, name, std::string(name_of(surface.reflectivity)), "stated by the model's files",
+         validity_of(surface.reflectivity).grazing_rad,
+         extrapolations_of(surface.reflectivity, waveform.polarisation, waveform.frequency_Hz)});
 }
 
 atmosphere::VolumeEcho volume_echo_of(const SceneSetting& scene) {
@@ -116,6 +116,18 @@ void check(const Scene& scene, const Conditions& conditions, core::ProblemList& 
                       renderer::kAccuracies_grey, "grey levels");
 }
 
+// The site with the models' own materials at the temperature of now; the same one where they do not
+// change with it.
+std::shared_ptr<const Site> site_at_temperature_of(const SceneDescription& scene,
+                                                   const std::shared_ptr<const Site>& site,
+                                                   core::ProblemList& problems) {
+  auto materials = at_temperature_of(scene, site->parts().model_materials, problems);
+  if (!materials) return site;
+  Site::Parts parts = site->parts();
+  parts.model_materials = std::move(*materials);
+  return std::make_shared<const Site>(std::move(parts));
+}
+
 }  // namespace
 
 int SceneSetting::frame_count() const {
@@ -168,11 +180,12 @@ std::unique_ptr<Scene> under_conditions(const Scene& scene, const Conditions& co
     changed.weather = *conditions.weather;
     description.weather = *conditions.weather;
     description.rain_cells.clear();  // places that nobody has put anything at any more
+    changed.site = site_at_temperature_of(description, scene.site, problems);
   }
   if (conditions.accuracy_grey) changed.options.accuracy_grey = *conditions.accuracy_grey;
   if (conditions.wishes) changed.options.wishes = *conditions.wishes;
   if (conditions.surface_state) description.surface_state = *conditions.surface_state;
-  const Site::Parts& parts = scene.site->parts();
+  const Site::Parts& parts = changed.site->parts();
   changed.volume = flight_volume(description, scene.frame, scene.trajectory,
                                  *parts.geometry->surfaces->terrain(), parts.facts);
   if (conditions.surface_state) check_surfaces(description, parts.library, parts.used, problems);

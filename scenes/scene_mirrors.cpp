@@ -51,7 +51,7 @@ SpecularSurfaces specular_surfaces(const SceneDescription& scene, const Site& si
         *material.rms_height_m};
   }
   for (const ModelMaterials::Entry& entry : site.parts().model_materials)
-    surfaces.push_back(entry.mirror);
+    surfaces.push_back(entry.surface.mirror);
   return surfaces;
 }
 

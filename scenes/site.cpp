@@ -34,7 +34,7 @@ const renderer::Reflectivity& Site::reflectivity(materials::SurfaceState state) 
     std::vector<bool> met(curves.size(), false);
     for (const std::size_t id : parts_.used) met[id] = true;
     for (const ModelMaterials::Entry& entry : parts_.model_materials)
-      curves.emplace_back(entry.surface, waveform.polarisation, waveform.frequency_Hz);
+      curves.emplace_back(entry.surface.reflectivity, waveform.polarisation, waveform.frequency_Hz);
     met.resize(curves.size(), true);
     reflectivity_[index] = renderer::Reflectivity(std::move(curves), met);
   });

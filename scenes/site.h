@@ -1,5 +1,6 @@
-// What stands in a scene, before any weather, sensor setting or flight: what its files give in
-// seconds. Const, and shared by all scenes that are made of it (scene.h).
+// What stands in a scene, before any weather, sensor setting or flight, but for the temperature of
+// materials that models bring along: what its files give in seconds. Const, and shared by all scenes
+// that are made of it (scene.h).
 #pragma once
 
 #include <array>

@@ -10,6 +10,7 @@ struct Permittivity {
   double real = 1.0;
   double loss = 0.0;
 
+  bool operator==(const Permittivity&) const = default;
   // The sign of a zero imaginary part is kept negative: it decides the branch of square roots.
   std::complex<double> complex() const { return {real, -loss}; }
 };

@@ -22,6 +22,8 @@ using core::Polarisation;
 struct SpecularSurface {
   Permittivity permittivity;
   double rms_height_m = 0.0;
+
+  bool operator==(const SpecularSurface&) const = default;
 };
 
 // Amplitude of the reflected field. Grazing 0 to pi/2, heights 0 to 1000 m, wavelength 1e-6 to

@@ -4,7 +4,6 @@
 
 #include "core/relative_uri.h"
 #include "materials/open_material/brdf_table.h"
-#include "materials/open_material/permittivity_table.h"
 #include "materials/open_material/reflection_table.h"
 
 namespace fanbeam::materials {
@@ -39,6 +38,20 @@ void report_extrapolations(const SurfaceModel& surface, const RadarQuery& query,
   }
 }
 
+Lookup<SpecularSurface> rough_boundary(const PermittivityTable* table,
+                                       const std::optional<double>& rms_height_m,
+                                       const RadarQuery& query) {
+  if (table == nullptr) return {{}, "no permittivity"};
+  const Lookup<Permittivity> permittivity = table->at(query);
+  if (!permittivity.value) return {{}, permittivity.why_not};
+  if (!rms_height_m) return {{}, "no surface height"};
+  return {SpecularSurface{*permittivity.value, *rms_height_m}, {}};
+}
+
+OhSurface oh_surface(const SpecularSurface& rough, double temperature_K) {
+  return {rough.permittivity, rough.rms_height_m, temperature_K};
+}
+
 // The three ways to a reflectivity, with what each of them lacks.
 struct Ways {
   Lookup<SurfaceModel> custom, brdf;
@@ -48,7 +61,7 @@ struct Ways {
     if (custom.value) return custom.value;
     if (brdf.value) return brdf.value;
     if (!rough.value) return std::nullopt;
-    return OhSurface{rough.value->permittivity, rough.value->rms_height_m, temperature_K};
+    return oh_surface(*rough.value, temperature_K);
   }
   std::string why_not() const {
     return "customProperties.fanbeam.nrcs (" + custom.why_not + "), brdfUris (" + brdf.why_not +
@@ -57,6 +70,16 @@ struct Ways {
 };
 
 }  // namespace
+
+Lookup<OpenSurface> OpenSurface::at(const RadarQuery& query) const {
+  const Lookup<SpecularSurface> rough = rough_boundary(permittivity.get(), rms_height_m, query);
+  OpenSurface result = *this;
+  result.mirror = rough.value;
+  if (!std::holds_alternative<OhSurface>(reflectivity)) return {result, {}};
+  if (!rough.value) return {{}, rough.why_not};
+  result.reflectivity = oh_surface(*rough.value, query.temperature_K);
+  return {result, {}};
+}
 
 OpenMaterials::OpenMaterials(const fs::path& file, fs::path allowed_folder, const RadarQuery& query,
                              core::ProblemList& problems)
@@ -112,16 +135,12 @@ Lookup<SurfaceModel> OpenMaterials::from_brdfs(const fs::path& file,
   return found;
 }
 
-Lookup<SpecularSurface> OpenMaterials::rough_boundary(const fs::path& file,
-                                                      const OpenMaterialFile& material,
-                                                      core::ProblemList& problems) {
-  Lookup<Permittivity> permittivity{{}, "no permittivity"};
-  if (material.permittivity)
-    if (const auto table = table_file(file, *material.permittivity, problems))
-      permittivity = PermittivityTable::from_file(*table, problems).at(query_);
-  if (!permittivity.value) return {{}, permittivity.why_not};
-  if (!material.rms_height_m) return {{}, "no surface height"};
-  return {SpecularSurface{*permittivity.value, *material.rms_height_m}, {}};
+std::shared_ptr<const PermittivityTable> OpenMaterials::permittivity_of(
+    const fs::path& file, const OpenMaterialFile& material, core::ProblemList& problems) {
+  if (!material.permittivity) return nullptr;
+  const auto table = table_file(file, *material.permittivity, problems);
+  if (!table) return nullptr;
+  return std::make_shared<const PermittivityTable>(PermittivityTable::from_file(*table, problems));
 }
 
 std::optional<OpenSurface> OpenMaterials::read_surface(const fs::path& file,
@@ -129,14 +148,16 @@ std::optional<OpenSurface> OpenMaterials::read_surface(const fs::path& file,
   core::ProblemList problems;
   std::optional<OpenSurface> surface;
   if (const auto material = read_open_material_file(file, problems)) {
-    const Ways ways{from_custom_properties(*material, query_),
-                    from_brdfs(file, *material, problems),
-                    rough_boundary(file, *material, problems)};
+    const Lookup<SurfaceModel> brdf = from_brdfs(file, *material, problems);
+    auto permittivity = permittivity_of(file, *material, problems);
+    const Ways ways{from_custom_properties(*material, query_), brdf,
+                    rough_boundary(permittivity.get(), material->rms_height_m, query_)};
     for (const NamedUri& uri : material->reflection_coefficients)
       if (const auto table = table_file(file, uri, problems))
         check_reflection_table(*table, problems);
     if (auto reflectivity = ways.first(query_.temperature_K))
-      surface = OpenSurface{std::move(*reflectivity), ways.rough.value};
+      surface = OpenSurface{std::move(*reflectivity), ways.rough.value, std::move(permittivity),
+                            material->rms_height_m};
     if (!surface && !problems.has_errors())
       problems.error(ErrorClass::unsupported, {file.string()}, "/materialProperties",
                      "no reflectivity at " + radar_text(query_), ways.why_not());

@@ -19,6 +19,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,7 @@
 #include "materials/dielectric/specular_surface.h"
 #include "materials/nrcs/surface_model.h"
 #include "materials/open_material/mapping_file.h"
+#include "materials/open_material/permittivity_table.h"
 #include "materials/open_material/radar_query.h"
 
 namespace fanbeam::materials {
@@ -34,6 +36,13 @@ namespace fanbeam::materials {
 struct OpenSurface {
   SurfaceModel reflectivity;
   std::optional<SpecularSurface> mirror;
+  // What the mirror and Oh's model were made of; without it neither depends on the temperature.
+  std::shared_ptr<const PermittivityTable> permittivity;
+  std::optional<double> rms_height_m;
+
+  // The same material at another temperature, the radar being the same. Nothing where Oh's model had
+  // served and the table has no answer.
+  Lookup<OpenSurface> at(const RadarQuery& query) const;
 };
 
 class OpenMaterials {
@@ -59,9 +68,10 @@ class OpenMaterials {
                                           core::ProblemList& problems);
   Lookup<SurfaceModel> from_brdfs(const std::filesystem::path& file,
                                   const OpenMaterialFile& material, core::ProblemList& problems);
-  Lookup<SpecularSurface> rough_boundary(const std::filesystem::path& file,
-                                         const OpenMaterialFile& material,
-                                         core::ProblemList& problems);
+  // Null without one.
+  std::shared_ptr<const PermittivityTable> permittivity_of(const std::filesystem::path& file,
+                                                           const OpenMaterialFile& material,
+                                                           core::ProblemList& problems);
   // The table that `uri` of `from` names; nothing after reporting.
   std::optional<std::filesystem::path> table_file(const std::filesystem::path& from,
                                                   const NamedUri& uri, core::ProblemList& problems);

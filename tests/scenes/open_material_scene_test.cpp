@@ -125,6 +125,61 @@ TEST_CASE("A material with a surface height and a permittivity mirrors; one with
   CHECK(scene->plan.runs(core::EffectId::double_bounce));
 }
 
+TEST_CASE(
+    "New weather turns a model's materials to its temperature, as if the scene were opened with it",
+    "[open_material]") {
+  // HiVision's 8.566 mm lies between the rows of 4 and 10 mm; those of 273 to 293 K differ.
+  const auto text = [](const std::string& weather) {
+    return replaced(wall_scene("open_material = \"block.xoma\""), "[weather]",
+                    "[weather]\n" + weather);
+  };
+  const TemporaryFolder folder;
+  write_model(folder);
+  folder.write("wall.gltf", wall_gltf("Concrete"));
+  const auto cold = tests::good_scene(folder, text("temperature_C = -5.0"));
+  const auto warm = tests::good_scene(folder, text("temperature_C = 30.0"));
+  core::ProblemList problems;
+  const auto turned =
+      scenes::under_conditions(*cold, {.weather = warm->description.weather}, problems);
+  CHECK(problems.all().empty());
+  const std::string name = "wall.gltf:Concrete";
+  const double cold_sigma0 = curve_of(*cold, name).sigma0(0.7);
+  CHECK(curve_of(*warm, name).sigma0(0.7) > 1.01 * cold_sigma0);
+  CHECK(curve_of(*turned, name).sigma0(0.7) == curve_of(*warm, name).sigma0(0.7));
+  CHECK(turned->world.specular.back() == warm->world.specular.back());
+  CHECK(sum_W(*turned) == sum_W(*warm));
+  // And back, from either; other weather of that temperature shares the site.
+  const auto back =
+      scenes::under_conditions(*turned, {.weather = cold->description.weather}, problems);
+  CHECK(sum_W(*back) == sum_W(*cold));
+  atmosphere::Weather rain = cold->description.weather;
+  rain.temperature_C = -10.0;
+  CHECK(scenes::under_conditions(*cold, {.weather = rain}, problems)->site == cold->site);
+}
+
+TEST_CASE("A temperature at which a model's material is not known is refused", "[open_material]") {
+  const TemporaryFolder folder;
+  write_model(folder);
+  folder.write("wall.gltf", wall_gltf("Concrete"));
+  std::ifstream file(folder.path() / "materials/concrete_emp.xompt");
+  const std::string table(std::istreambuf_iterator<char>(file), {});
+  folder.write("materials/concrete_emp.xompt",
+               replaced(table, "[0.01, 293, 50, 1, 0,", "[0.01, 293, 50, 2, 0,"));
+  const auto cold =
+      tests::good_scene(folder, replaced(wall_scene("open_material = \"block.xoma\""), "[weather]",
+                                         "[weather]\ntemperature_C = -5.0"));
+  atmosphere::Weather warm = cold->description.weather;
+  warm.temperature_C = 30.0;
+  core::ProblemList problems;
+  REQUIRE_THROWS_AS(scenes::under_conditions(*cold, {.weather = warm}, problems), core::InputError);
+  REQUIRE(problems.all().size() == 1);
+  CHECK(problems.all()[0].code == "E-UNSUPPORTED");
+  CHECK(problems.all()[0].field == "temperature_C");
+  CHECK(problems.all()[0].value == "30");
+  CHECK(problems.all()[0].expected ==
+        "one that wall.gltf:Concrete is known at: a magnetic medium, mu other than 1");
+}
+
 TEST_CASE("The wall's echo is as strong as its material says", "[open_material]") {
   // One wall under three strengths of "a" alone: what the ground adds drops out of the ratio.
   const auto power_W = [](const std::string& a) {

@@ -334,7 +334,8 @@ class Scene:
         other's place; None for either: no fog there.
         rain_rate_mm_per_h 0 to 300, everywhere below rain_top_m or a melting layer.
         snow_rate_mm_per_h 0 to 50, water equivalent. temperature_C -60 to 50, pressure_hPa 300 to 1100,
-        humidity 0 to 1, of the air at the origin; None: of the reference atmosphere.
+        humidity 0 to 1, of the air at the origin; None: of the reference atmosphere. Media that mirror and
+        OpenMATERIAL surfaces follow the temperature.
         None of the rest: no rain, no snow, no melting layer, tops as without a scene (150, 3000, 6000 m).
         Layers of fog and cells of rain that the scene has stay.
         """
