@@ -45,9 +45,9 @@ Interval oh_frequency_Hz(const OhSurface& surface) {
   const Interval known = medium != nullptr ? valid_frequency_Hz(*medium) : Interval{1e9, 100e9};
   if (!(surface.rms_height_m > 0.0)) return known;
   const double unit_Hz = core::kSpeedOfLight_mps / (2.0 * core::kPi * surface.rms_height_m);
-  const double high_Hz = std::min(known.high, kOhWaveNumberHeight.high * unit_Hz);
   // A surface too smooth or too rough at every known frequency keeps the nearest one.
-  return {std::min(std::max(known.low, kOhWaveNumberHeight.low * unit_Hz), high_Hz), high_Hz};
+  return {std::clamp(kOhWaveNumberHeight.low * unit_Hz, known.low, known.high),
+          std::clamp(kOhWaveNumberHeight.high * unit_Hz, known.low, known.high)};
 }
 
 struct Validity {

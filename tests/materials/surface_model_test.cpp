@@ -164,6 +164,16 @@ TEST_CASE("A curve outside a model's frequencies keeps the nearest; a Phong row 
         Approx(git_land_sigma0(GitTerrain::urban, GitBand::x_10GHz, radians(5.0))).epsilon(1e-12));
   const PhongSurface row{{0.1, 0.2, 3.0}, 35e9, 0.5, {30e9, 40e9}, {0.02, 1.0}, kH};
   CHECK(NrcsCurve(row, kV, 140e9).sigma0(sine) == 2.0 * row.nrcs.sigma0(sine));
+  // Soil of 80 mm is within Oh's data up to 3.6 GHz, its medium known from 4 GHz on; of 1 um it would
+  // be from 4800 GHz on, the medium known to 37 GHz. The end of the medium's frequencies is nearest.
+  const OhSurface ploughed{DielectricMedium::moist_soil, 0.08, 288.15};
+  CHECK(validity_of(ploughed).frequency_Hz.low == 4e9);
+  CHECK(validity_of(ploughed).frequency_Hz.high == 4e9);
+  CHECK(NrcsCurve(ploughed, kH, 35e9).sigma0(sine) == NrcsCurve(ploughed, kH, 4e9).sigma0(sine));
+  CHECK(NrcsCurve(ploughed, kH, 35e9).sigma0(sine) > 0.0);
+  const OhSurface smooth{DielectricMedium::moist_soil, 1e-6, 288.15};
+  CHECK(validity_of(smooth).frequency_Hz.low == 37e9);
+  CHECK(validity_of(smooth).frequency_Hz.high == 37e9);
   CHECK(NrcsCurve(PhongNrcs(0.1, 0.2, 3.0)).sigma0(sine) == row.nrcs.sigma0(sine));
   CHECK(NrcsCurve().sigma0(1.0) == 0.0);
   CHECK(NrcsCurve(row, kH, 35e9).sigma0(-0.1) == 0.0);
