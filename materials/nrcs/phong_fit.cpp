@@ -100,13 +100,16 @@ class DecibelFit {
     for (std::size_t i = 0; i < sine_.size(); ++i) lobe_[i] = std::pow(sine_[i], c);
   }
 
-  // a : b as given, scaled so that the mean deviation is 0 dB.
+  // a : b as given, scaled so that the mean deviation is 0 dB; infinitely far off where a form under
+  // the least double has no decibels.
   Candidate scaled(double a, double b, double c) const {
     const auto count = static_cast<double>(sine_.size());
     double sum_dB = 0.0;
     double sum_dB2 = 0.0;
     for (std::size_t i = 0; i < sine_.size(); ++i) {
-      const double difference_dB = level_dB_[i] - 10.0 * std::log10(a * sine_[i] + b * lobe_[i]);
+      const double form = a * sine_[i] + b * lobe_[i];
+      if (form == 0.0) return {};
+      const double difference_dB = level_dB_[i] - 10.0 * std::log10(form);
       sum_dB += difference_dB;
       sum_dB2 += difference_dB * difference_dB;
     }

@@ -128,6 +128,19 @@ TEST_CASE("Fit keeps to the bounds: a pure lobe has a = 0, a pure Lambert law b 
   REQUIRE(fit_phong(power_law(0.5)).nrcs.b() == 0.0);
 }
 
+TEST_CASE("Fit bears angles at which a steep lobe is smaller than any double", "[materials][fit]") {
+  std::vector<NrcsSample> samples;
+  const std::map<double, double> level_dB = {{0.03, -60.0}, {0.1, -55.0},  {1.0, -45.0},
+                                             {3.0, -40.0},  {10.0, -33.0}, {30.0, -20.0}};
+  for (const auto& [grazing_deg, sigma0_dB] : level_dB)
+    samples.push_back({radians(grazing_deg), std::pow(10.0, 0.1 * sigma0_dB)});
+  const PhongFit fit = fit_phong(samples);
+  samples[0].grazing_rad = radians(0.04);  // where no exponent up to 100 is that steep
+  const PhongFit beside = fit_phong(samples);
+  CHECK(fit.rms_dB == Approx(beside.rms_dB).epsilon(0.0).margin(1.0));
+  CHECK(fit.nrcs.a() == Approx(beside.nrcs.a()).epsilon(0.3));
+}
+
 TEST_CASE("Fit refuses samples without a decibel value", "[materials][fit]") {
   const auto fit = [](double grazing_rad, double sigma0) {
     return [=] { fit_phong({{0.1, 1.0}, {0.2, 1.0}, {grazing_rad, sigma0}}); };
