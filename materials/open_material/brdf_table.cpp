@@ -63,7 +63,7 @@ BrdfTable BrdfTable::from_file(const std::filesystem::path& file, core::ProblemL
 Lookup<TabulatedSurface> BrdfTable::backscatter_at(const RadarQuery& query) const {
   if (rows_.empty()) return {{}, "no row in the backscatter direction"};
   const double asked_m = core::kSpeedOfLight_mps / query.frequency_Hz;
-  const auto distance = [&](const Row& row) { return std::abs(row.wavelength_m / asked_m - 1.0); };
+  const auto distance = [&](const Row& row) { return std::abs(asked_m / row.wavelength_m - 1.0); };
   const Row& nearest =
       *std::min_element(rows_.begin(), rows_.end(),
                         [&](const Row& a, const Row& b) { return distance(a) < distance(b); });

@@ -7,7 +7,7 @@
 // irradiance and the projected area carry a cosine. Derivation: docs/physics/open-material.md.
 //
 // Rows: wavelength m, incident zenith rad, exit zenith rad, exit azimuth rad relative to incidence,
-// f_r 1/sr. Of the wavelength nearest to the radar's, and at most 10 % away, the rows in the
+// f_r 1/sr. Of the wavelength nearest to the radar's, which is at most 10 % off it, the rows in the
 // backscatter direction count: zenith angles equal and azimuth 0 or 2 pi, within 0.001 rad; at the
 // normal every azimuth. Rows with a null are passed over. Between the rows f_r is linear in t,
 // beyond the first and the last it is held. A BRDF of this standard does not know polarisation: it

@@ -71,6 +71,19 @@ TEST_CASE("A BRDF gives 4 pi f cos^2 in the backscatter direction", "[materials]
   }
 }
 
+TEST_CASE("A BRDF that is found at a frequency is known there", "[materials][open_material]") {
+  // Panel's is of 8.5655 mm, 35 GHz: it serves 31.82 to 38.89 GHz, and nothing else does.
+  for (const double frequency_GHz : {31.6, 31.8, 31.9, 38.6, 38.8, 39.0}) {
+    const RadarQuery query{frequency_GHz * 1e9};
+    const tests::OpenSurface result = open_surface(tests::open_material_data(), "Panel", query);
+    INFO(frequency_GHz);
+    CHECK(result.surface.has_value() == (frequency_GHz > 31.82 && frequency_GHz < 38.88));
+    if (!result.surface)
+      CHECK(told(result) ==
+            std::vector<std::string>{"E-UNSUPPORTED panel.xomp /materialProperties"});
+  }
+}
+
 TEST_CASE("A diffuse reflector of reflectance 1 has gamma 4: sigma0 = 4 sin^2(psi)",
           "[materials][open_material]") {
   // Lambert's f = 1 / pi.
