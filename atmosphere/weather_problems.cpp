@@ -1,8 +1,12 @@
 // What can be wrong with a Weather: the body of problems_in.
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "atmosphere/air_column.h"
+#include "atmosphere/gas/gases.h"
+#include "atmosphere/gas/geopotential.h"
 #include "atmosphere/input_check.h"
 #include "atmosphere/weather.h"
 #include "core/constants.h"
@@ -30,6 +34,8 @@ void collect(core::ProblemList& problems, const std::string& prefix, Check check
 std::string entry(const char* list, std::size_t i) {
   return std::string(list) + "[" + std::to_string(i) + "].";
 }
+
+std::string rounded(double value) { return core::number_text(std::round(10.0 * value) / 10.0); }
 
 void check_heights(core::ProblemList& problems, const std::string& prefix, double base_m,
                    double top_m) {
@@ -103,6 +109,41 @@ void check_levels(core::ProblemList& problems, const Weather& weather) {
                    "no value beside levels");
 }
 
+// Levels that are right by themselves may still make air that no gas law takes, also beyond them or
+// once fog saturates it: told of the level it follows from.
+void check_air(core::ProblemList& problems, const Weather& weather) {
+  constexpr double kLowest_K = 100.0, kHighest_K = 350.0, kDensest_hPa = 2000.0;
+  const AirColumn column(weather);
+  const auto told = [&](std::size_t i, double height_m) {
+    const AirState air = column.at(height_m);
+    const AirLevel& level = weather.levels[i];
+    const std::string there = core::number_text(height_m) + " m, not of ";
+    const auto tell = [&](const char* key, double value, const std::string& expected) {
+      problems.error(core::ErrorClass::range, {}, entry("level", i) + key, core::number_text(value),
+                     expected);
+      return true;
+    };
+    if (air.temperature_K < kLowest_K || air.temperature_K > kHighest_K)
+      return tell("temperature_C", level.temperature_C,
+                  "air of -173 to 77 C at " + there + rounded(air.temperature_K - kZeroCelsius_K));
+    const double least_hPa = vapour_pressure_hPa(
+        saturation_vapour_density_g_per_m3(air.temperature_K, air.pressure_hPa), air.temperature_K);
+    if (air.pressure_hPa >= least_hPa && air.pressure_hPa <= kDensest_hPa) return false;
+    const std::string expected = "air of " + rounded(least_hPa) +
+                                 ", its saturated vapour, to 2000 hPa at " + there +
+                                 rounded(air.pressure_hPa);
+    return level.pressure_hPa ? tell("pressure_hPa", *level.pressure_hPa, expected)
+                              : tell("temperature_C", level.temperature_C, expected);
+  };
+  std::vector<std::pair<std::size_t, double>> places = {{0, kLowestWeather_m}};
+  for (const AirLevel& level : weather.levels)
+    places.emplace_back(places.size() - 1, level.height_m);
+  places.emplace_back(weather.levels.size() - 1, kHighestWeather_m);
+  std::size_t wrong = weather.levels.size();  // told of already
+  for (const auto& [i, height_m] : places)
+    if (i != wrong && told(i, height_m)) wrong = i;
+}
+
 void check_snow(core::ProblemList& problems, const Weather& weather) {
   core::check_range(problems, "snow_rate_mm_per_h", weather.snow_rate_mm_per_h,
                     {0.0, kLargestSnowRate_mm_per_h}, "mm/h");
@@ -155,8 +196,7 @@ void check_laws(core::ProblemList& problems, const Weather& weather, double freq
   const double ground_C = AirColumn(weather).temperature_C(0.0);
   if (!weather.melting_layer && !weather.melting_height_m && ground_C > 2.0)
     problems.warning("WARM-SNOW", {}, "snow_rate_mm_per_h",
-                     "dry snow in air of " + core::number_text(std::round(10.0 * ground_C) / 10.0) +
-                         " C at the origin",
+                     "dry snow in air of " + rounded(ground_C) + " C at the origin",
                      "simulated as dry snow all the same; set temperature_C or a melting layer");
 }
 
@@ -182,6 +222,7 @@ core::ProblemList problems_in(const Weather& weather, double frequency_Hz) {
   check_rain_cells(problems, weather);
   check_levels(problems, weather);
   check_snow(problems, weather);
+  if (!problems.has_errors() && !weather.levels.empty()) check_air(problems, weather);
   if (!problems.has_errors()) check_laws(problems, weather, frequency_Hz);
   return problems;
 }

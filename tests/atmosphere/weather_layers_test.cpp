@@ -159,6 +159,33 @@ TEST_CASE("The 0 C level of a sounding is the highest one", "[sounding]") {
   CHECK(*zero_m == Approx(700.0).epsilon(0.0).margin(0.2));
 }
 
+TEST_CASE("Levels that make air no gas law takes are refused by the level they come of",
+          "[sounding]") {
+  const auto told = [](std::vector<AirLevel> levels, std::optional<double> visibility_m = {}) {
+    Weather weather;
+    weather.levels = std::move(levels);
+    weather.visibility_m = visibility_m;
+    const core::ProblemList problems = problems_in(weather, 35e9);
+    if (!problems.has_errors()) PathAttenuation(weather, 35e9);
+    return problems.all().empty() ? "" : core::to_string(problems.all()[0]);
+  };
+  // kPa for hPa: the vapour alone weighs more.
+  CHECK_THAT(told({{0.0, 45.0, 0.9, 101.3}}),
+             Catch::Contains("level[0].pressure_hPa = 101.3") && Catch::Contains("at -2000 m"));
+  CHECK_THAT(told({{0.0, 20.0, 0.5, 1000.0}, {1000.0, 50.0, 0.1, 100.0}}),
+             Catch::Contains("level[1].pressure_hPa = 100"));
+  // 10 C at 10 km are 88 C at -2 km.
+  CHECK_THAT(
+      told({{10000.0, 10.0, 0.5, std::nullopt}}),
+      Catch::Contains("level[0].temperature_C = 10: expected air of -173 to 77 C at -2000 m, not "
+                      "of 87.9"));
+  CHECK_THAT(told({{12000.0, -60.0, 0.5, 1100.0}}),
+             Catch::Contains("level[0].pressure_hPa = 1100") && Catch::Contains("to 2000 hPa"));
+  CHECK(told({{0.0, 50.0, 1.0, std::nullopt}}, 50.0).empty());
+  CHECK(told({{0.0, -90.0, 1.0, 1050.0}}).empty());
+  CHECK(told({{0.0, 15.0, 0.5, 1013.0}, {12000.0, -60.0, 0.1, 190.0}}).empty());
+}
+
 TEST_CASE("Wrong levels and layers are refused, all problems together", "[sounding]") {
   Weather weather;
   weather.levels = {{100.0, 3.0, 0.5, std::nullopt}, {50.0, 70.0, 1.5, 20.0}};
