@@ -70,7 +70,7 @@ void print_table(const atmosphere::AtmosphereTable& table) {
         row.range_m, row.oxygen_dB, row.vapour_dB, row.fog_dB, row.rain_dB, row.snow_dB,
         row.one_way_dB(), row.two_way_dB(), row.eta_m2_per_m3, dB_text(row.equivalent_sigma0_dB));
   if (table.rain)
-    fmt::print("  rain: k = {:.4f}, alpha = {:.4f}\n", table.rain->k, table.rain->alpha);
+    fmt::print("  rain: k = {:.5g}, alpha = {:.4f}\n", table.rain->k, table.rain->alpha);
 }
 
 void print_notes(const atmosphere::AtmospherePath& path,
