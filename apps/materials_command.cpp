@@ -177,6 +177,7 @@ int plot_materials(const MaterialsView& options, const MaterialsPlotOptions& plo
                               options.polarisation, options.state);
   picture.x = {"grazing angle, deg", true, 0.5, 90.0};
   picture.y = {"sigma0, dB", false, {}, {}};
+  std::string dark;
   for (const MaterialRow& row : rows_of(library, options)) {
     const bool wanted = plot.names.empty() || std::find(plot.names.begin(), plot.names.end(),
                                                         row.dry.name) != plot.names.end();
@@ -188,8 +189,15 @@ int plot_materials(const MaterialsView& options, const MaterialsPlotOptions& plo
       series.x.push_back(0.5 * std::pow(180.0, static_cast<double>(i) / kPlaces));
       series.y.push_back(row.level_dB(std::min(series.x.back(), 90.0)));
     }
-    picture.series.push_back(std::move(series));
+    // gnuplot takes no curve that is all gap: a surface that returns nothing.
+    if (std::any_of(series.y.begin(), series.y.end(), [](double y) { return std::isfinite(y); }))
+      picture.series.push_back(std::move(series));
+    else
+      dark += (dark.empty() ? "" : ", ") + row.dry.name;
   }
+  if (picture.series.empty())
+    core::throw_input_error(core::ErrorClass::range, "material", dark,
+                            "one that returns something");
   const int key_px = 120 + 22 * static_cast<int>(picture.series.size());
   picture.height_px = std::max(picture.height_px, key_px);
   session::write_plot(picture, plot.output);

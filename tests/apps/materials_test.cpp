@@ -78,6 +78,37 @@ TEST_CASE("fanbeam materials plot draws SVG and PNG through gnuplot", "[cli][mat
   CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 2);
 }
 
+TEST_CASE("fanbeam materials plot leaves out what is dark, and says so where nothing else is",
+          "[cli][materials]") {
+  const TemporaryFolder folder;
+  folder.write("lib.toml", R"([dark]
+model = "tabulated"
+grazing_deg = [90]
+sigma0 = [0.0]
+confidence = "assumed"
+source = "none"
+[grey]
+model = "tabulated"
+grazing_deg = [90]
+sigma0 = [0.1]
+confidence = "assumed"
+source = "none"
+)");
+  const auto plot = [&](const std::string& names) {
+    return run_fanbeam("materials --library " + quoted(folder.path() / "lib.toml") + " plot -o " +
+                       quoted(folder.path() / "a.svg") + " " + names);
+  };
+  const Result dark = plot("dark");
+  CHECK(dark.exit_code == 3);
+  CHECK(dark.output.find("E-RANGE material = dark: expected one that returns something") !=
+        std::string::npos);
+  CHECK_FALSE(fs::exists(folder.path() / "a.svg"));
+  REQUIRE(plot("dark grey").exit_code == 0);
+  const std::string svg = bytes_of(folder.path() / "a.svg");
+  CHECK(svg.find("grey") != std::string::npos);
+  CHECK(svg.find("dark") == std::string::npos);
+}
+
 TEST_CASE("A plot's script quotes texts, leaves gaps and does not depend on anything else",
           "[cli][gnuplot]") {
   using namespace fanbeam::session;
