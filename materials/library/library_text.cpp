@@ -29,7 +29,10 @@ std::string with_value(std::string_view line, const Values& values) {
   if (found == values.end()) return std::string(line);
   const std::size_t comment = line.find('#', equals);
   std::string result = std::string(line.substr(0, equals)) + "= " + found->second;
-  if (comment != std::string_view::npos) result += "  " + std::string(line.substr(comment));
+  if (comment != std::string_view::npos)
+    result += "  " + std::string(line.substr(comment));
+  else if (line.ends_with('\r'))
+    result += '\r';
   return result;
 }
 

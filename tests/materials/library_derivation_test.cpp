@@ -129,6 +129,10 @@ TEST_CASE("Making the fits again repairs spoilt figures and touches nothing else
   spoilt.replace(asphalt, 26, "frequency_exponent = 1");
   core::ProblemList problems;
   CHECK(with_fits_made_again(spoilt, file, problems) == text);
+  std::string windows, spoilt_windows;
+  for (const char c : text) windows += c == '\n' ? "\r\n" : std::string(1, c);
+  for (const char c : spoilt) spoilt_windows += c == '\n' ? "\r\n" : std::string(1, c);
+  CHECK(with_fits_made_again(spoilt_windows, file, problems) == windows);
   const std::string broken = text + "[broken\n";
   CHECK(with_fits_made_again(broken, file, problems) == broken);
   CHECK(problems.has_errors());
