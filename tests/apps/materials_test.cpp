@@ -81,21 +81,15 @@ TEST_CASE("fanbeam materials plot draws SVG and PNG through gnuplot", "[cli][mat
 TEST_CASE("fanbeam materials plot leaves out what is dark, and says so where nothing else is",
           "[cli][materials]") {
   const TemporaryFolder folder;
-  folder.write("lib.toml", R"([dark]
-model = "tabulated"
-grazing_deg = [90]
-sigma0 = [0.0]
-confidence = "assumed"
-source = "none"
-[grey]
-model = "tabulated"
-grazing_deg = [90]
-sigma0 = [0.1]
-confidence = "assumed"
-source = "none"
-)");
+  std::string library;
+  for (const auto& [name, levels] : {std::pair("dark", "0, 0"), std::pair("grey", "0.1, 0.2")})
+    library += std::string("[") + name +
+               "]\nmodel = \"tabulated\"\ngrazing_deg = [1, 90]\nsigma0 = [" + levels +
+               "]\nfrequency_range_GHz = [1, 100]\npolarisation = \"any\"\n"
+               "confidence = \"assumed\"\nsource = \"none\"\n";
+  folder.write("lib.toml", library);
   const auto plot = [&](const std::string& names) {
-    return run_fanbeam("materials --library " + quoted(folder.path() / "lib.toml") + " plot -o " +
+    return run_fanbeam("materials plot --library " + quoted(folder.path() / "lib.toml") + " -o " +
                        quoted(folder.path() / "a.svg") + " " + names);
   };
   const Result dark = plot("dark");
