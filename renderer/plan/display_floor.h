@@ -15,7 +15,8 @@
 // In one realisation of speckle (fluctuation.h) one draw s <= 22.88 multiplies all of a cell: the
 // change is 10 log10(1 + p / max(f / s, N)).
 // The bound is that of the worse of the pictures that are shown, the B-scope and, where heights are
-// (SceneFacts), the C-scope of the sensor's mode; at most the window.
+// (SceneFacts), the C-scope of the sensor's mode; at most the window. Where watts are read (the
+// products power and labels) they end at no black: f is 0.
 // docs/effects.md has the derivation.
 #pragma once
 

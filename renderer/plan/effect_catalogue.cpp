@@ -90,10 +90,12 @@ double snow_dB(const SceneFacts& facts) { return longest_path_dB(facts, core::Ef
 
 bool has_echo(const SceneFacts& facts) { return facts.largest_eta_m2_per_m3 > 0.0; }
 
-// Noise in every cell, and in a row of the C-scope what the display adds there.
+// Noise in every cell, and in a row of the C-scope what the display adds there: of pictures, as it
+// runs wherever watts are read (plan.cpp).
 double noise_dB(const SceneFacts& with) {
   SceneFacts facts = with;
   facts.noise_shown = false;
+  facts.read = {};
   const sensors::Sensor& sensor = facts.sensor;
   const AddedPower noise{
       std::vector<double>(static_cast<std::size_t>(sensor.range.cells), sensor.noise_power_W()),

@@ -97,6 +97,48 @@ TEST_CASE("What thresholds decide about counts in full for detections and obstac
   CHECK(gas().reason.find("product obstacles") != std::string::npos);
 }
 
+// Rain 25 dB above the noise was missing from watts, as the display showed all of it black.
+TEST_CASE("Who reads watts counts what is added over noise, however bright the display's black",
+          "[plan]") {
+  for (const Display::CScopeMode mode :
+       {Display::CScopeMode::true_elevation, Display::CScopeMode::flat_earth})
+    for (const bool sample : {false, true}) {
+      renderer::SceneFacts facts = facts_with(mode);
+      facts.sample = sample;
+      facts.sensor.display.mapping = Display::Mapping::log;
+      facts.sensor.display.low_dB = 200.0;
+      facts.sensor.display.high_dB = 260.0;
+      facts.noise_shown = true;
+      renderer::AddedPower added = in_cell(facts.sensor, 0, 0.5 * facts.sensor.noise_power_W());
+      added.row_W_m3 = 0.25 * sensors::cscope_noise_W_m3(facts.sensor);
+      CHECK(renderer::largest_change_dB(added, facts) < 1e-6);
+      for (const renderer::Readings read :
+           {renderer::Readings{.power = true}, renderer::Readings{.labels = true}}) {
+        facts.read = read;
+        facts.noise_shown = true;
+        CHECK(renderer::largest_change_dB(added, facts) == Approx(change_dB(0.5)).epsilon(1e-9));
+        facts.noise_shown = false;
+        CHECK(renderer::largest_change_dB(added, facts) == renderer::window_dB(facts.sensor));
+        CHECK(renderer::largest_change_dB(in_cell(facts.sensor, 0, 0.0), facts) == 0.0);
+      }
+    }
+}
+
+TEST_CASE("Rain that a display hides is left out of pictures, not of watts and labels", "[plan]") {
+  renderer::SceneFacts facts = facts_with(Display::CScopeMode::true_elevation);
+  facts.sensor.display.mapping = Display::Mapping::log;
+  facts.sensor.display.low_dB = 200.0;
+  facts.sensor.display.high_dB = 260.0;
+  facts.largest_eta_m2_per_m3 = 1e-6;
+  const auto rain_runs = [&](const renderer::Readings& read) {
+    facts.read = read;
+    return renderer::plan(facts, 0.5, {}).runs(core::EffectId::rain_echo);
+  };
+  CHECK_FALSE(rain_runs({}));
+  CHECK(rain_runs({.power = true}));
+  CHECK(rain_runs({.labels = true}));
+}
+
 TEST_CASE("In a realisation the largest draw lifts added power over black, not over noise",
           "[plan]") {
   renderer::SceneFacts facts = facts_with(Display::CScopeMode::true_elevation);
