@@ -11,9 +11,9 @@
 #include "apps/stop_on_signals.h"
 #include "core/parallel.h"
 #include "core/stop.h"
-#include "session/session.h"
 #include "session/signal/fmcw_sequence.h"
 #include "session/signal/radar_file.h"
+#include "session/signal/signal_session.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -81,11 +81,9 @@ int fmcw(FmcwOptions& options, const CommonOptions& common) {
   }
   scenes::BuildOptions build;
   build.accuracy_grey = options.accuracy_grey;
-  build.heights_shown = false;
   if (!options.effects.empty())
     build.wishes = renderer::parse_effect_wishes(options.effects, renderer::Touches::samples);
-  const auto scene =
-      session::Session(description, {.build = build, .pictures = false}, problems).scene();
+  const auto scene = session::Session(description, session::signal_setup(build), problems).scene();
   if (!common.quiet) print_problems(problems.all());
   const StopOnSignals stop_on_signals;
   try {

@@ -78,6 +78,9 @@ def frame(
 ) -> SignalFrame:
     """Beat signals of a frame of the scene's flight, and what is made of them.
 
+    Samples are a realisation: targets fluctuate, whatever the scene's pictures show, and every effect with any
+    influence on the echoes runs unless the scene was opened without it.
+
     want           of "beat", "cube", "range-doppler", "range-azimuth", "detections"
     waveform       a kind ("chirp-sequence", "triangle", ...) or "automotive-76ghz"; "": by the sensor
     radar          TOML file of a radar, which also has windows, detector, angle method, clusters, channel

@@ -20,6 +20,7 @@
 #include "session/signal/chain.h"
 #include "session/signal/paths.h"
 #include "session/signal/radar_file.h"
+#include "session/signal/signal_session.h"
 #include "session/signal/waveform_choice.h"
 #include "session/signal/waveform_figures.h"
 
@@ -186,8 +187,10 @@ py::dict frame(const Scene& scene, int index, const std::set<std::string>& produ
       const core::ThreadLimit limit(scene.session().threads());
       made->radar = session::fmcw_radar(settings, sensor);
       session::check_processing(made->radar, products);
-      made->paths = session::fmcw_paths(*now, index, settings);
-      made->frame = session::fmcw_frame(made->radar, *now, made->paths, index, settings, products);
+      const auto planned = session::planned_for_signals(now);
+      made->paths = session::fmcw_paths(*planned, index, settings);
+      made->frame =
+          session::fmcw_frame(made->radar, *planned, made->paths, index, settings, products);
     });
   });
   const py::object owner = owner_of(made);

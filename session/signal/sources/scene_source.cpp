@@ -2,10 +2,10 @@
 
 #include "scenes/scene.h"
 #include "session/frame_choice.h"
-#include "session/session.h"
 #include "session/signal/chain.h"
 #include "session/signal/paths.h"
 #include "session/signal/radar_file.h"
+#include "session/signal/signal_session.h"
 #include "session/signal/sources/measured_source.h"
 
 namespace fanbeam::session {
@@ -20,7 +20,7 @@ class SceneSource : public MeasuredSource {
     settings_.seed = asked_.seed;
     if (!file.empty()) read_radar_file(file, settings_, problems);
     problems.throw_if_errors();
-    scene_ = Session(description, {.pictures = false}, problems).scene();
+    scene_ = Session(description, signal_setup(), problems).scene();
     warnings = problems.all();
     const sensors::Sensor& sensor = scene_->description.sensor;
     const auto radar = [&] {
