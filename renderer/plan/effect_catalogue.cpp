@@ -103,9 +103,7 @@ double noise_dB(const SceneFacts& with) {
   return largest_change_dB(noise, facts);
 }
 
-double receiver_noise_dB(const SceneFacts& facts) {
-  return facts.signal->over_display_floor ? noise_dB(facts) : facts.signal->window_dB;
-}
+double receiver_noise_dB(const SceneFacts& facts) { return facts.signal->window_dB; }
 
 // At grazing angles every surface reflects all there is, and nothing limits how bright the corner
 // is beside the display's floor; in a null of two rays a target is gone. No bound below the whole

@@ -32,8 +32,7 @@ struct SceneFacts {
   bool sample = false;           // frames show one realisation, not the expected power
   bool heights_shown = true;     // a C-scope, or obstacles: what mode shadow raises
   Readings read{};
-  // Set by plan(): thermal noise runs whatever else does. By signal_plan(): it runs, or is left out
-  // because the display's floor hides it.
+  // Set by plan(): thermal noise runs whatever else does. By signal_plan(): the receiver's runs.
   bool noise_shown = false;
   bool fluctuating_targets = false;  // a target of Swerling case 1 to 4
   bool surface_not_dry = false;

@@ -84,9 +84,8 @@ double interference_bound_dB(const SceneFacts& facts) {
                   core::kDecibelsPerNeper * std::log1p(energy_W / signal.noise_sample_W));
 }
 
-std::string receiver_noise_cause(const SceneFacts& facts, double bound_dB) {
-  if (facts.signal->over_display_floor) return noise_cause(facts, bound_dB);
-  return whole_text("the receiver's noise, on which thresholds and colours stand,", facts);
+std::string receiver_noise_cause(const SceneFacts& facts, double) {
+  return whole_text("the receiver's noise, on which thresholds, colours and watts stand,", facts);
 }
 
 std::string phase_noise_cause(const SceneFacts& facts, double bound_dB) {

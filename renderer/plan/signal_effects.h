@@ -8,8 +8,8 @@
 // windows and lengths cancel. With P the sum of the echoes' powers and C the channels that a beam
 // sums (it keeps a common pedestal and lowers noise by C; 1 where no product has beams):
 //
-//   receiver noise  the floor itself. Over the display's floor as thermal noise is; elsewhere
-//                   thresholds and colours stand on it, and its bound is the whole window.
+//   receiver noise  the floor itself, on which thresholds, colours and watts stand, those of a B-scope
+//                   too, however dark its display is: the whole window.
 //   phase noise     exp(j theta), theta Gaussian, of a density of at most S on either side and a
 //                   variance of at most v whatever the echo's delay (signal/receiver/oscillator.h),
 //                   common to all channels: an echo keeps exp(-v) of its power, the rest is a pedestal

@@ -5,10 +5,9 @@ namespace fanbeam::renderer {
 
 struct SignalFacts {
   // How what is made of the samples is shown.
-  double window_dB = 60.0;          // of the picture, grey 0 to 255
-  bool over_display_floor = false;  // a B-scope of the sensor's display; else maps over their noise
-  bool samples_asked = false;       // the samples are a product themselves
-  int beams = 1;                    // channels that a beam sums coherently, most of all products
+  double window_dB = 60.0;     // of the picture, grey 0 to 255
+  bool samples_asked = false;  // the samples are a product themselves
+  int beams = 1;               // channels that a beam sums coherently, most of all products
   // The samples as they reach the receiver.
   double echo_W = 0.0;                // sum of the echoes' powers at one receiver's port
   double largest_sample_sqrtW = 0.0;  // largest magnitude of any part of any sample

@@ -109,10 +109,9 @@ SamplesShown shown_by(const FmcwRadar& radar, const FmcwSettings& options,
 
 }  // namespace
 
-FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
-                     const std::vector<signal::ScatterPath>& paths, int frame_number,
-                     const FmcwSettings& options, const std::set<std::string>& products,
-                     const SignalBudget& budget,
+FmcwFrame fmcw_frame(const FmcwRadar& radar, const std::vector<signal::ScatterPath>& paths,
+                     int frame_number, const FmcwSettings& options,
+                     const std::set<std::string>& products, const SignalBudget& budget,
                      const std::vector<signal::Interferer>& interferers) {
   FmcwFrame frame;
   const auto policy =
@@ -134,7 +133,7 @@ FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
         interference_in(radar, stage, options, interferers, beat.shape, crossed);
     const double strongest_W = echo_W * largest_gain(options, beat.shape.channels);
     const core::EffectPlan plan =
-        receiver_plan(budget, shown, sensor, receiver, strongest_W, beat, interference);
+        receiver_plan(budget, shown, receiver, strongest_W, beat, interference);
     keep_larger(plan, frame.plan);
     // A stage more is another stretch of time: draws of its own.
     const core::RandomKey key{options.seed, 0,
@@ -170,8 +169,8 @@ FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
 FmcwFrame fmcw_frame(const FmcwRadar& radar, const scenes::Scene& scene, const FmcwPaths& paths,
                      int frame, const FmcwSettings& options,
                      const std::set<std::string>& products) {
-  return fmcw_frame(radar, scene.description.sensor, paths.paths, frame, options, products,
-                    signal_budget(scene), paths.interferers);
+  return fmcw_frame(radar, paths.paths, frame, options, products, signal_budget(scene),
+                    paths.interferers);
 }
 
 }  // namespace fanbeam::session

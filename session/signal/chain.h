@@ -45,9 +45,8 @@ struct FmcwFrame {
 // Does what the names of `products` need (kFmcwProducts; maps mark the detections). The draws are
 // keyed by the options' seed, `frame` and the stage. What the receiver does to the samples is
 // planned from them and `budget`.
-FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
-                     const std::vector<signal::ScatterPath>& paths, int frame,
-                     const FmcwSettings& options, const std::set<std::string>& products,
+FmcwFrame fmcw_frame(const FmcwRadar& radar, const std::vector<signal::ScatterPath>& paths,
+                     int frame, const FmcwSettings& options, const std::set<std::string>& products,
                      const SignalBudget& budget = {},
                      const std::vector<signal::Interferer>& interferers = {});
 // The same of a frame of a scene, whose `paths` fmcw_paths gave.

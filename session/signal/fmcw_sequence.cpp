@@ -164,8 +164,8 @@ class FmcwRun {
 
   void write_interference(int index, const FmcwPaths& paths, const FmcwFrame& frame,
                           std::set<std::string>& files) const {
-    const auto cases = interference_study(radar_, scene_.description.sensor, paths, frame, index,
-                                          settings_.radar, signal_budget(scene_));
+    const auto cases =
+        interference_study(radar_, paths, frame, index, settings_.radar, signal_budget(scene_));
     const std::string name = fmt::format("{}/{:05}", kInterference, index);
     core::write_file_atomically(output_.path() / (name + ".csv"), interference_csv(cases));
     const std::string title =

@@ -71,9 +71,8 @@ std::vector<signal::Interferer> interferers_of(const scenes::Scene& scene, int f
   return result;
 }
 
-std::vector<InterferenceCase> interference_study(const FmcwRadar& radar,
-                                                 const sensors::Sensor& sensor,
-                                                 const FmcwPaths& paths, FmcwFrame heard, int frame,
+std::vector<InterferenceCase> interference_study(const FmcwRadar& radar, const FmcwPaths& paths,
+                                                 FmcwFrame heard, int frame,
                                                  const FmcwSettings& options,
                                                  const SignalBudget& budget) {
   const std::set<std::string> products = {"range-doppler", "detections"};
@@ -98,7 +97,7 @@ std::vector<InterferenceCase> interference_study(const FmcwRadar& radar,
   };
   FmcwSettings settings = options;
   settings.mitigation = signal::Mitigation::none;
-  add("clean", fmcw_frame(radar, sensor, paths.paths, frame, settings, products, budget));
+  add("clean", fmcw_frame(radar, paths.paths, frame, settings, products, budget));
   for (const signal::Mitigation each :
        {signal::Mitigation::none, signal::Mitigation::zero, signal::Mitigation::interpolate}) {
     settings.mitigation = each;

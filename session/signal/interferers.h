@@ -26,9 +26,8 @@ struct InterferenceCase {
   std::vector<double> profile_W;  // mean over speeds, of every range cell
 };
 // `heard`: that frame as fmcw_frame made it with them, whose samples nothing has mended.
-std::vector<InterferenceCase> interference_study(const FmcwRadar& radar,
-                                                 const sensors::Sensor& sensor,
-                                                 const FmcwPaths& paths, FmcwFrame heard, int frame,
+std::vector<InterferenceCase> interference_study(const FmcwRadar& radar, const FmcwPaths& paths,
+                                                 FmcwFrame heard, int frame,
                                                  const FmcwSettings& options,
                                                  const SignalBudget& budget);
 

@@ -34,12 +34,11 @@ SignalBudget signal_budget(const scenes::Scene& scene) {
 }
 
 core::EffectPlan receiver_plan(const SignalBudget& budget, const SamplesShown& shown,
-                               const sensors::Sensor& sensor, const FmcwReceiver& receiver,
-                               double echo_W, const signal::FloatCube& beat,
+                               const FmcwReceiver& receiver, double echo_W,
+                               const signal::FloatCube& beat,
                                const signal::FloatCube& interference) {
   renderer::SignalFacts signal;
   signal.window_dB = shown.window_dB;
-  signal.over_display_floor = shown.over_display_floor;
   signal.samples_asked = shown.samples_asked;
   signal.beams = shown.beams;
   signal.echo_W = echo_W;
@@ -58,9 +57,7 @@ core::EffectPlan receiver_plan(const SignalBudget& budget, const SamplesShown& s
   signal.full_scale_sqrtW = receiver.full_scale_sqrtW;
   signal.adc_bits = receiver.adc_bits;
   renderer::SceneFacts facts;
-  facts.sensor = sensor;
   facts.sample = true;
-  facts.heights_shown = false;  // of samples a B-scope is made
   facts.signal = signal;
   return renderer::signal_plan(budget.sequence, facts, budget.accuracy_grey, budget.wishes);
 }

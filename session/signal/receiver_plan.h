@@ -18,7 +18,6 @@ SignalBudget signal_budget(const scenes::Scene& scene);
 // How what is made of the samples is shown: see renderer::SignalFacts.
 struct SamplesShown {
   double window_dB = 60.0;
-  bool over_display_floor = false;
   bool samples_asked = false;
   int beams = 1;
 };
@@ -26,8 +25,8 @@ struct SamplesShown {
 // `beat` as synthesised, complex, the channels' gains included, `echo_W` the sum of its echoes' powers in
 // the channel that has most; `interference`: what other radars add to it, or empty.
 core::EffectPlan receiver_plan(const SignalBudget& budget, const SamplesShown& shown,
-                               const sensors::Sensor& sensor, const FmcwReceiver& receiver,
-                               double echo_W, const signal::FloatCube& beat,
+                               const FmcwReceiver& receiver, double echo_W,
+                               const signal::FloatCube& beat,
                                const signal::FloatCube& interference = {});
 
 // Of two plans of the same effects, for every effect the decision of the larger bound: of several

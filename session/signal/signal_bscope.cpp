@@ -70,8 +70,7 @@ SignalBscope signal_bscope(const renderer::World& world, const renderer::FramePo
   FmcwReceiver receiver =
       fmcw_receiver(settings.receiver, noise_figure_of(settings.receiver, sensor),
                     signal::column_sweep(sensor, 0).sample_rate_Hz[0], true);
-  const SamplesShown shown{.window_dB = sensors::GreyScale(sensor).window_dB(),
-                           .over_display_floor = true};
+  const SamplesShown shown{.window_dB = sensors::GreyScale(sensor).window_dB()};
   SignalBscope result;
   result.looks = settings.looks > 0 ? settings.looks : sensor.receiver.looks;
   result.power_W.assign(
@@ -89,7 +88,7 @@ SignalBscope signal_bscope(const renderer::World& world, const renderer::FramePo
     receiver.longest_delay_s =
         delays.empty() ? 0.0 : *std::max_element(delays.begin(), delays.end());
     const core::EffectPlan plan =
-        receiver_plan(settings.budget, shown, sensor, receiver, sum_W(found.echoes), beat);
+        receiver_plan(settings.budget, shown, receiver, sum_W(found.echoes), beat);
     keep_larger(plan, result.plan);
     const core::RandomKey key{seed, 0, pose.frame_index};
     if (plan.runs(core::EffectId::phase_noise)) {

@@ -44,7 +44,7 @@ TEST_CASE("The noise of a stage is that of no other stage, frame or seed", "[fmc
   for (const std::uint64_t seed : {5U, 6U})
     for (const int frame : {0, 1, 2}) {
       options.seed = seed;
-      for (signal::FloatCube& beat : fmcw_frame(radar, sensor, {}, frame, options, {"beat"}).beats)
+      for (signal::FloatCube& beat : fmcw_frame(radar, {}, frame, options, {"beat"}).beats)
         beats.push_back(std::move(beat));
     }
   REQUIRE(beats.size() == 12);
@@ -67,7 +67,7 @@ TEST_CASE("A frame holds what its products need and nothing else", "[fmcw]") {
   path.range_m = 40.0;
   path.amplitude_sqrtW = 1e-6;
   const auto made = [&](const std::set<std::string>& products) {
-    return fmcw_frame(radar, sensor, {path}, 0, options, products);
+    return fmcw_frame(radar, {path}, 0, options, products);
   };
   const FmcwFrame beat = made({"beat"});
   CHECK_FALSE(beat.found);
@@ -100,7 +100,7 @@ TEST_CASE("Receiver effects of zero magnitude, and pruned ones, change no byte",
     SignalBudget budget;
     if (*wishes != 0)
       budget.wishes = renderer::parse_effect_wishes(wishes, renderer::Touches::samples);
-    return fmcw_frame(radar, sensor, {path}, 0, options, {"range-doppler"}, budget);
+    return fmcw_frame(radar, {path}, 0, options, {"range-doppler"}, budget);
   };
   const FmcwFrame plain = made("");
   CHECK(made("+phase-noise,+quantiser").beats[0].values == plain.beats[0].values);
@@ -129,7 +129,7 @@ TEST_CASE("A fixed full scale saturates, and is free of samples below it", "[fmc
   signal::ScatterPath path;
   path.range_m = 40.0;
   path.amplitude_sqrtW = 1e-3;  // 0 dBm at the port is 31.6 times as much
-  const auto made = [&] { return fmcw_frame(radar, sensor, {path}, 0, options, {"beat"}); };
+  const auto made = [&] { return fmcw_frame(radar, {path}, 0, options, {"beat"}); };
   options.adc_full_scale_dBm = -20.0;
   CHECK(made().clipped == 0);
   options.adc_full_scale_dBm = -36.0206;  // half the amplitude
@@ -156,9 +156,7 @@ TEST_CASE("What a channel's gain lets clip, or lifts over the noise, is not prun
   signal::ScatterPath path;
   path.range_m = 40.0;
   path.amplitude_sqrtW = 1e-6;
-  const auto made = [&] {
-    return fmcw_frame(radar, sensor, {path}, 0, options, {"range-doppler"});
-  };
+  const auto made = [&] { return fmcw_frame(radar, {path}, 0, options, {"range-doppler"}); };
   const FmcwFrame even = made();
   CHECK_FALSE(even.plan.runs(core::EffectId::quantiser));
   CHECK(even.clipped == 0);
@@ -186,7 +184,7 @@ TEST_CASE("Errors of channels are in the samples and bend the beam", "[fmcw]") {
   signal::ScatterPath path;
   path.range_m = 40.0;
   path.amplitude_sqrtW = 1e-6;
-  const auto made = [&] { return fmcw_frame(radar, sensor, {path}, 0, options, {"detections"}); };
+  const auto made = [&] { return fmcw_frame(radar, {path}, 0, options, {"detections"}); };
   const FmcwFrame good = made();
   options.gain_errors_dB.assign(12, 0.0);
   options.gain_errors_dB[3] = 6.0;
@@ -214,8 +212,7 @@ TEST_CASE("An array at two heights measures elevation", "[fmcw]") {
   path.azimuth_rad = 0.2;
   path.elevation_rad = 0.1;
   path.amplitude_sqrtW = 1e-6;
-  const FmcwFrame frame =
-      fmcw_frame(radar, sensor, {path}, 0, options, {"detections", "range-azimuth"});
+  const FmcwFrame frame = fmcw_frame(radar, {path}, 0, options, {"detections", "range-azimuth"});
   REQUIRE(frame.found->detections.size() == 1);
   CHECK(frame.found->detections[0].azimuth_rad == Approx(0.2).epsilon(0.0).margin(2e-3));
   CHECK(frame.found->detections[0].elevation_rad == Approx(0.1).epsilon(0.0).margin(4e-3));
@@ -243,8 +240,7 @@ TEST_CASE("False alarms are as many as asked for, in turn and at once, by every 
       std::size_t found = 0;
       constexpr int kFrames = 24;
       for (int frame = 0; frame < kFrames; ++frame)
-        found +=
-            fmcw_frame(radar, sensor, {}, frame, options, {"detections"}).found->detections.size();
+        found += fmcw_frame(radar, {}, frame, options, {"detections"}).found->detections.size();
       const double cells = kFrames * 128.0 * radar.detection.transform.kept_range_cells;
       const double expected = cells * options.false_alarm_probability;
       INFO(signal::name(kind) << ", " << slots << " slots: " << found << " for " << expected);

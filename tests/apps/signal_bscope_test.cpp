@@ -106,6 +106,16 @@ TEST_CASE("Signal level and picture level show the same B-scope", "[scan]") {
   CHECK(found.rms_dB > 0.2);  // and it is there
 }
 
+TEST_CASE("The watts of a B-scope from signals hold the noise that its display hides", "[scan]") {
+  scenes::SceneDescription description = approach();
+  description.sensor.display.mapping = sensors::Display::Mapping::log;
+  description.sensor.display.low_dB = 200.0;
+  description.sensor.display.high_dB = 260.0;
+  const session::SignalBscope bscope = from_signals(*built(description), 1);
+  CHECK(bscope.plan.runs(core::EffectId::receiver_noise));
+  CHECK(std::ranges::all_of(bscope.power_W, [](double power_W) { return power_W > 0.0; }));
+}
+
 TEST_CASE("Uncompensated, 70 m/s shift the B-scope from signals by 41.5 m", "[scan]") {
   scenes::SceneDescription description = approach();
   const std::vector<double>& expected_W = picture_W();

@@ -61,11 +61,11 @@ std::vector<tracking::RadarMeasurement> of_cluster(double range_m, double first_
 }
 
 // Of the strongest detection of a frame that holds one path.
-tracking::RadarMeasurement measured(const session::FmcwRadar& radar, const sensors::Sensor& sensor,
+tracking::RadarMeasurement measured(const session::FmcwRadar& radar,
                                     const session::FmcwSettings& options,
                                     const signal::ScatterPath& path, int frame) {
   const auto found =
-      session::fmcw_frame(radar, sensor, {path}, frame, options, {"detections"}).found->detections;
+      session::fmcw_frame(radar, {path}, frame, options, {"detections"}).found->detections;
   REQUIRE_FALSE(found.empty());
   const auto strongest = std::max_element(
       found.begin(), found.end(), [](const auto& a, const auto& b) { return a.snr < b.snr; });
@@ -128,7 +128,7 @@ TEST_CASE("What moves is measured where it is at the time of the frame", "[fmcw]
     path.range_m = 40.0;
     path.radial_speed_mps = speed_mps;
     path.amplitude_sqrtW = std::sqrt(1e5 * radar.noise_cell_W);
-    const auto found = measured(radar, sensor, options, path, 0);
+    const auto found = measured(radar, options, path, 0);
     INFO(speed_mps << " m/s");
     CHECK(found.range_rate_mps == Approx(speed_mps).margin(0.05).epsilon(0.0));
     CHECK(found.range_m == Approx(40.0).margin(0.01).epsilon(0.0));  // was 0.115 m off
@@ -150,7 +150,7 @@ TEST_CASE("Errors of a radar's detections are as large as their measurements tel
   path.amplitude_sqrtW = std::sqrt(1e3 * radar.noise_cell_W);
   tracking::MeanSquare range, rate, azimuth;
   for (int frame = 0; frame < 600; ++frame) {
-    const auto found = measured(radar, sensor, options, path, frame);
+    const auto found = measured(radar, options, path, frame);
     range.add((found.range_m - path.range_m) / found.range_sigma_m);
     rate.add((found.range_rate_mps - path.radial_speed_mps) / found.range_rate_sigma_mps);
     azimuth.add(found.azimuth_rad / found.azimuth_sigma_rad);
