@@ -42,10 +42,10 @@ double RainCells::two_way_power_factor(const glm::dvec3& from_m,
   return loss_dB == 0.0 ? 1.0 : std::exp(-kNeperPer_dB * loss_dB);
 }
 
-double RainCells::largest_one_way_dB(double length_m) const noexcept {
+double RainCells::largest_one_way_dB(double length_m, int legs) const noexcept {
   double sum = 0.0;
   for (const Cell& cell : cells_)
-    sum += cell.dB_per_km * std::min(length_m, cell.prism.longest_chord_m());
+    sum += cell.dB_per_km * std::min(length_m, legs * cell.prism.longest_chord_m());
   return 1e-3 * sum;
 }
 

@@ -41,8 +41,9 @@ class RainCells {
   // Power left after going there and back, 1 to 0; exactly 1 outside all cells.
   double two_way_power_factor(const glm::dvec3& from_m, const glm::dvec3& to_m) const noexcept;
 
-  // Upper bound of one_way_dB for any path of this length.
-  double largest_one_way_dB(double length_m) const noexcept;
+  // Upper bound of one_way_dB for any path of this length, or of the sum over `legs` straight ones that
+  // are as long together: each crosses a cell, which is convex, once.
+  double largest_one_way_dB(double length_m, int legs = 1) const noexcept;
 
  private:
   struct Cell {

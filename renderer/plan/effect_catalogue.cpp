@@ -75,7 +75,9 @@ double longest_path_dB(const SceneFacts& facts, core::EffectId effect) {
   }
   const double layers_dB_per_km = path.largest_one_way_dB_per_km(lowest_m, highest_m);
   const atmosphere::RainCells cells(weather, frequency_Hz);
-  return 2.0 * (layers_dB_per_km * 1e-3 * range_m + cells.largest_one_way_dB(range_m));
+  // Out or back by way of a corner's mirror are two legs.
+  const int legs = corners_possible(facts) ? 2 : 1;
+  return 2.0 * (layers_dB_per_km * 1e-3 * range_m + cells.largest_one_way_dB(range_m, legs));
 }
 
 bool always(const SceneFacts&) { return true; }

@@ -143,3 +143,23 @@ TEST_CASE("An antenna sees heights as far from its aircraft's as lever and tilte
   hung.leaves_ground = false;
   CHECK(fog->bound_dB(hung) == 0.0);
 }
+
+TEST_CASE("A corner's echo may cross a rain cell twice out and twice back", "[effects]") {
+  renderer::SceneFacts facts;
+  facts.sensor = tests::hivision();
+  facts.weather.rain_cells = {{.radius_m = 104.0, .rain_rate_mm_per_h = 3.0, .top_m = 50.0}};
+  const auto rain_dB = [&] {
+    for (const core::EffectDecision& each : renderer::plan(facts, 0.5, {}).decisions)
+      if (each.effect == core::EffectId::rain) return each.bound_dB;
+    return 0.0;
+  };
+  const double direct_dB = rain_dB();
+  CHECK(direct_dB > 0.0);
+  facts.reflects = facts.mirrored_rays_end = true;
+  CHECK(rain_dB() == Approx(2.0 * direct_dB).epsilon(1e-12));
+  // Not farther than the path is long.
+  facts.weather.rain_cells[0].radius_m = 50000.0;
+  const double filled_dB = rain_dB();
+  facts.reflects = false;
+  CHECK(rain_dB() == filled_dB);
+}
