@@ -82,6 +82,21 @@ double gathered(const std::vector<double>& cell_W, int row, const std::vector<do
   return sum;
 }
 
+// The most of `cell_W` [cell] after the response, in any column.
+std::vector<double> largest_after(const RangeResponse& response, const sensors::Sensor& sensor,
+                                  const std::vector<double>& cell_W) {
+  std::vector<double> most_W(cell_W.size(), 0.0);
+  // Columns differ by their bandwidth alone; where they do not, one stands for all.
+  const int columns = sensors::point_response_varies(sensor) ? sensor.scan.columns : 1;
+  for (int column = 0; column < columns; ++column)
+    for (int row = 0; row < sensor.range.cells; ++row) {
+      const double power_W = gathered(cell_W, row, response.shares(column));
+      most_W[static_cast<std::size_t>(row)] =
+          std::max(most_W[static_cast<std::size_t>(row)], power_W);
+    }
+  return most_W;
+}
+
 }  // namespace
 
 RangeResponse::RangeResponse(const sensors::Sensor& sensor)
@@ -143,17 +158,9 @@ bool has_range_response(const SceneFacts& facts) {
 
 std::vector<double> largest_spread(const sensors::Sensor& sensor, std::vector<double> cell_W) {
   if (!sensors::has_point_response(sensor)) return cell_W;
-  const RangeResponse response(sensor);
-  std::vector<double> most_W(cell_W.size(), 0.0);
-  // Columns differ by their bandwidth alone; where they do not, one stands for all.
-  const int columns = sensors::point_response_varies(sensor) ? sensor.scan.columns : 1;
-  for (int column = 0; column < columns; ++column)
-    for (int row = 0; row < sensor.range.cells; ++row) {
-      const double power_W = gathered(cell_W, row, response.shares(column));
-      most_W[static_cast<std::size_t>(row)] =
-          std::max(most_W[static_cast<std::size_t>(row)], power_W);
-    }
-  return most_W;
+  const std::vector<double> after_W = largest_after(RangeResponse(sensor), sensor, cell_W);
+  for (std::size_t i = 0; i < cell_W.size(); ++i) cell_W[i] = std::max(cell_W[i], after_W[i]);
+  return cell_W;
 }
 
 double range_response_bound_dB(const SceneFacts& facts) {
@@ -165,7 +172,7 @@ double range_response_bound_dB(const SceneFacts& facts) {
     least_kept = std::min(least_kept, response.shares(column)[0]);
   const std::vector<double> echo_W =
       largest_echo(all_sources(facts), whole_beam(sensor), sensor).cell_W;
-  AddedPower beside{largest_spread(sensor, echo_W)};
+  AddedPower beside{largest_after(response, sensor, echo_W)};
   for (std::size_t i = 0; i < echo_W.size(); ++i) beside.cell_W[i] -= least_kept * echo_W[i];
   return std::clamp(-10.0 * std::log10(least_kept), largest_change_dB(beside, facts),
                     window_dB(sensor));

@@ -17,8 +17,7 @@
 // Bound, dB. An echo keeps at least K_0 in its own cell, and fills the cells around it; with E the
 // largest echo in each range cell of what the scene holds (largest_echo.h)
 //     max(-10 log10 K_0, change of a pixel by sum over k away from 0 of K_|k| E(row - k))
-// (display_floor.h), at most the window; the whole window where double bounce or ground multipath
-// are possible. Where a bin is about a cell, K_1 is above 10 % and the effect always runs.
+// (display_floor.h), at most the window; the whole window where double bounce is possible. Where a bin is about a cell, K_1 is above 10 % and the effect always runs.
 #pragma once
 
 #include <vector>
@@ -51,7 +50,7 @@ class RangeResponse {
   std::vector<std::vector<double>> shares_;  // one for all columns, or one each
 };
 
-// Upper bound of `cell_W` [cell] after the response, in any column; as it is without one.
+// Upper bound of `cell_W` [cell], in any column, whether the response runs or not.
 std::vector<double> largest_spread(const sensors::Sensor& sensor, std::vector<double> cell_W);
 
 bool has_range_response(const SceneFacts& facts);

@@ -221,6 +221,20 @@ TEST_CASE("the plan runs the range response only where a window or a whole scan 
   CHECK(renderer::plan(facts, 0.5, as_needed).runs(core::EffectId::range_response));
 }
 
+// What is added was counted as spread even where the response is switched off.
+TEST_CASE("what a cell may hold counts with the response and without it", "[range_response]") {
+  sensors::Sensor sensor = tests::hivision();
+  sensor.waveform.window = Window::hann;
+  std::vector<double> cell_W(static_cast<std::size_t>(sensor.range.cells), 0.0);
+  cell_W[0] = 1.0;
+  const std::vector<double> most_W = renderer::largest_spread(sensor, cell_W);
+  const renderer::RangeResponse response(sensor);
+  CHECK(response.shares(0)[0] < 0.9);
+  CHECK(most_W[0] == 1.0);
+  CHECK(most_W[1] == response.shares(0)[1]);
+  CHECK(most_W[2] == response.shares(0)[2]);
+}
+
 TEST_CASE("without a window the effect switched on changes no byte, nor do more threads",
           "[range_response]") {
   const materials::PhongNrcs grass(0.0325, 0.136, 1.99);
