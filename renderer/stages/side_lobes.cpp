@@ -47,9 +47,12 @@ double largest_lobe(const sensors::BeamCut& cut) {
   return most;
 }
 
-// A display of mapping stc counts in beam widths, and lobes inside the cut are part of the beam.
+// Displays of mapping stc, and seed without a width of its own, count in beam widths, and lobes inside
+// the cut are part of the beam.
 double scale_change_dB(const sensors::Sensor& sensor) {
-  if (sensor.display.mapping != sensors::Display::Mapping::stc) return 0.0;
+  using Mapping = sensors::Display::Mapping;
+  const Mapping mapping = sensor.display.mapping;
+  if (mapping == Mapping::log || (mapping == Mapping::seed && sensor.seed.active)) return 0.0;
   const sensors::BeamCut& azimuth = sensor.antenna.azimuth;
   return 10.0 * std::log10(sensors::two_way_width(azimuth) /
                            sensors::two_way_width(sensors::main_beam(azimuth)));

@@ -155,6 +155,32 @@ TEST_CASE("the plan runs side lobes when they are there and matter", "[side_lobe
   CHECK_FALSE(renderer::has_side_lobes(facts));
 }
 
+TEST_CASE("a scale that counts in beam widths moves with lobes inside the cut", "[side_lobes]") {
+  using Mapping = sensors::Display::Mapping;
+  renderer::SceneFacts facts;  // nothing echoes
+  facts.sensor = tests::hivision();
+  sensors::BeamCut& azimuth = facts.sensor.antenna.azimuth;
+  azimuth.shape = sensors::BeamCut::Shape::sinc_squared;
+  const double moved_dB = 10.0 * std::log10(sensors::two_way_width(azimuth) /
+                                            sensors::two_way_width(sensors::main_beam(azimuth)));
+  CHECK(moved_dB > 1e-3);
+  const auto bound_dB = [&](Mapping mapping) {
+    facts.sensor.display.mapping = mapping;
+    return renderer::side_lobe_bound_dB(facts);
+  };
+  CHECK(bound_dB(Mapping::stc) == moved_dB);
+  CHECK(bound_dB(Mapping::seed) == moved_dB);
+  facts.sensor.display.low_dB = -140.0;
+  facts.sensor.display.high_dB = -80.0;
+  CHECK(bound_dB(Mapping::log) == 0.0);
+  facts.sensor.seed.active = true;  // a width of its own
+  facts.sensor.seed.speed_of_light_mps = 3e8;
+  facts.sensor.seed.azimuth_patch_rad = azimuth.half_power_width_rad;
+  facts.sensor.seed.maximum_range_m = 3500.0;
+  facts.sensor.seed.pulse_s = 1e-7;
+  CHECK(bound_dB(Mapping::seed) == 0.0);
+}
+
 TEST_CASE("lobes of level zero change no byte, and lobes left out change less than their bound",
           "[side_lobes]") {
   const sensors::Sensor plain = tests::hivision(12);
