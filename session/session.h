@@ -6,8 +6,8 @@
 //   session.set(weather);                                                   // milliseconds
 //   const renderer::Frame frame = session.render(pose, 0);                  // pictures
 //
-// Who reads watts opens with Setup::build.read.power: else noise that the display hides may be left
-// out of them.
+// Who reads watts opens with Setup::build.read.power: else noise and echoes that the display hides may
+// be left out of them.
 // Thread-safe throughout: any number of threads, or tasks of the caller's own oneTBB, render and set
 // at once. A `set` publishes new conditions; frames under way keep those that they began with, and
 // a frame depends on its conditions, pose and number alone: the bytes are those of a serial run.

@@ -15,7 +15,7 @@ namespace {
 constexpr double kLargestDraw = 22.88;  // 33 ln 2: of one look
 
 // What is added over what is there; beside nothing at all whatever is added counts.
-double over(double added, double present) {
+double times_over(double added, double present) {
   if (!(added > 0.0)) return 0.0;
   return present > 0.0 ? added / present : std::numeric_limits<double>::infinity();
 }
@@ -25,7 +25,7 @@ double over_cscope(const AddedPower& added, const SceneFacts& facts, double floo
   const sensors::Sensor& sensor = facts.sensor;
   if (sensor.display.cscope_mode == sensors::Display::CScopeMode::true_elevation) {
     const double noise_W_m3 = facts.noise_shown ? sensors::cscope_noise_W_m3(sensor) : 0.0;
-    return over(added.row_W_m3, std::max(floor_W_m3, noise_W_m3));
+    return times_over(added.row_W_m3, std::max(floor_W_m3, noise_W_m3));
   }
   double largest_W = 0.0;
   double all_cells_W_m3 = 0.0;
@@ -35,7 +35,7 @@ double over_cscope(const AddedPower& added, const SceneFacts& facts, double floo
     largest_W = std::max(largest_W, power_W);
     all_cells_W_m3 += power_W * range_m * range_m * range_m;
   }
-  const double over_floor = over(all_cells_W_m3, floor_W_m3);
+  const double over_floor = times_over(all_cells_W_m3, floor_W_m3);
   const double noise_W = facts.noise_shown ? sensor.noise_power_W() : 0.0;
   return noise_W > 0.0 ? std::min(over_floor, largest_W / noise_W) : over_floor;
 }
@@ -46,14 +46,13 @@ double largest_change_dB(const AddedPower& added, const SceneFacts& facts) {
   const sensors::Sensor& sensor = facts.sensor;
   const sensors::GreyScale scale(sensor);
   // Of the display's black; watts end at none.
-  const bool reads_watts = facts.read.power || facts.read.labels;
-  const double share = reads_watts ? 0.0 : facts.sample ? 1.0 / kLargestDraw : 1.0;
+  const double share = facts.read.watts() ? 0.0 : facts.sample ? 1.0 / kLargestDraw : 1.0;
   const double noise_W = facts.noise_shown ? sensor.noise_power_W() : 0.0;
   double most =
       facts.heights_shown ? over_cscope(added, facts, scale.cscope_floor_W_m3() * share) : 0.0;
   for (int row = 0; row < sensor.range.cells; ++row)
-    most = std::max(most, over(added.cell_W[static_cast<std::size_t>(row)],
-                               std::max(scale.bscope_floor_W(row) * share, noise_W)));
+    most = std::max(most, times_over(added.cell_W[static_cast<std::size_t>(row)],
+                                     std::max(scale.bscope_floor_W(row) * share, noise_W)));
   return std::min(scale.window_dB(), core::kDecibelsPerNeper * std::log1p(most));
 }
 

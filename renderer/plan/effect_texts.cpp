@@ -49,9 +49,10 @@ std::string loss_text(const std::string& what, const std::string& takes, const S
 }
 
 std::string lift_text(const std::string& what, const SceneFacts& facts, double bound_dB) {
-  if (bound_dB >= window_dB(facts.sensor))
-    return what + " can lift a black pixel through " + window_text(facts);
-  return what + " can lift a black pixel by up to " + dB_text(bound_dB);
+  const std::string lifts =
+      what + " can lift " + (facts.read.watts() ? "the watts of a dark cell" : "a black pixel");
+  if (bound_dB >= window_dB(facts.sensor)) return lifts + " through " + window_text(facts);
+  return lifts + " by up to " + dB_text(bound_dB);
 }
 
 double heaviest_rain_mm_per_h(const atmosphere::Weather& weather) {
@@ -146,7 +147,9 @@ std::string range_response_cause(const SceneFacts& facts, double bound_dB) {
          dB_text(bound_dB);
 }
 
-std::string noise_cause(const SceneFacts& facts, double bound_dB) {
+std::string noise_cause(const SceneFacts& with, double bound_dB) {
+  SceneFacts facts = with;
+  facts.read = {};  // its bound is of pictures
   const double noise_dBm = 10.0 * std::log10(facts.sensor.noise_power_W()) + 30.0;
   return lift_text("the receiver's noise of " + with_decimals(noise_dBm, 0) + " dBm", facts,
                    bound_dB);

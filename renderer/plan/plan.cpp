@@ -36,9 +36,7 @@ bool tips_over(const SceneFacts& facts) {
 }
 
 // Watts hold the noise, and it crosses thresholds, where no display shows it.
-bool reads_noise(const SceneFacts& facts) {
-  return facts.read.power || facts.read.labels || facts.read.detections;
-}
+bool reads_noise(const SceneFacts& facts) { return facts.read.watts() || facts.read.detections; }
 
 std::string noise_readers_text(const Readings& read) {
   if (read.detections) return "asked for by the product detections, as it crosses thresholds";

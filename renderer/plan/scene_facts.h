@@ -11,6 +11,8 @@ namespace fanbeam::renderer {
 
 // What is read out of frames beside their pictures: it counts however dark a display shows it.
 struct Readings {
+  bool watts() const { return power || labels; }
+
   bool power = false;       // watts, noise included
   bool labels = false;      // signal to clutter, noise included
   bool detections = false;  // what crosses a threshold, noise included
