@@ -147,6 +147,7 @@ TEST_CASE("An antenna sees heights as far from its aircraft's as lever and tilte
 TEST_CASE("A corner's echo may cross a rain cell twice out and twice back", "[effects]") {
   renderer::SceneFacts facts;
   facts.sensor = tests::hivision();
+  facts.sensor.range.cells = 1000;  // 6.7 km: a cell's longest chord, from 2 km below, is 2.1 km
   facts.weather.rain_cells = {{.radius_m = 104.0, .rain_rate_mm_per_h = 3.0, .top_m = 50.0}};
   const auto rain_dB = [&] {
     for (const core::EffectDecision& each : renderer::plan(facts, 0.5, {}).decisions)
