@@ -37,6 +37,10 @@ std::string entry(const char* list, std::size_t i) {
 
 std::string rounded(double value) { return core::number_text(std::round(10.0 * value) / 10.0); }
 
+std::string whole_C(double temperature_K) {
+  return core::number_text(std::round(temperature_K - kZeroCelsius_K));
+}
+
 void check_heights(core::ProblemList& problems, const std::string& prefix, double base_m,
                    double top_m) {
   core::check_range(problems, prefix + "base_m", base_m, kHeights, kHeightUnit);
@@ -112,7 +116,6 @@ void check_levels(core::ProblemList& problems, const Weather& weather) {
 // Levels that are right by themselves may still make air that no gas law takes, also beyond them or
 // once fog saturates it: told of the level it follows from.
 void check_air(core::ProblemList& problems, const Weather& weather) {
-  constexpr double kLowest_K = 100.0, kHighest_K = 350.0, kDensest_hPa = 2000.0;
   const AirColumn column(weather);
   const auto told = [&](std::size_t i, double height_m) {
     const AirState air = column.at(height_m);
@@ -123,14 +126,16 @@ void check_air(core::ProblemList& problems, const Weather& weather) {
                      expected);
       return true;
     };
-    if (air.temperature_K < kLowest_K || air.temperature_K > kHighest_K)
+    if (!kGasTemperatures_K.holds(air.temperature_K))
       return tell("temperature_C", level.temperature_C,
-                  "air of -173 to 77 C at " + there + rounded(air.temperature_K - kZeroCelsius_K));
+                  "air of " + whole_C(kGasTemperatures_K.low) + " to " +
+                      whole_C(kGasTemperatures_K.high) + " C at " + there +
+                      rounded(air.temperature_K - kZeroCelsius_K));
     const double least_hPa = vapour_pressure_hPa(
         saturation_vapour_density_g_per_m3(air.temperature_K, air.pressure_hPa), air.temperature_K);
-    if (air.pressure_hPa >= least_hPa && air.pressure_hPa <= kDensest_hPa) return false;
-    const std::string expected = "air of " + rounded(least_hPa) +
-                                 ", its saturated vapour, to 2000 hPa at " + there +
+    if (air.pressure_hPa >= least_hPa && air.pressure_hPa <= kGasPressures_hPa.high) return false;
+    const std::string expected = "air of " + rounded(least_hPa) + ", its saturated vapour, to " +
+                                 rounded(kGasPressures_hPa.high) + " hPa at " + there +
                                  rounded(air.pressure_hPa);
     return level.pressure_hPa ? tell("pressure_hPa", *level.pressure_hPa, expected)
                               : tell("temperature_C", level.temperature_C, expected);

@@ -69,8 +69,8 @@ GasAttenuation gas_attenuation(double frequency_Hz, double dry_pressure_hPa, dou
                                double vapour_density_g_per_m3) {
   core::ProblemList problems;
   check_frequency(problems, frequency_Hz, 1e9, 1e12);
-  core::check_range(problems, "dry_pressure_hPa", dry_pressure_hPa, {0.0, 2000.0}, "hPa");
-  core::check_range(problems, "temperature_K", temperature_K, {100.0, 350.0}, "K");
+  core::check_range(problems, "dry_pressure_hPa", dry_pressure_hPa, kGasPressures_hPa, "hPa");
+  core::check_range(problems, "temperature_K", temperature_K, kGasTemperatures_K, "K");
   core::check_range(problems, "vapour_density_g_per_m3", vapour_density_g_per_m3, {0.0, 300.0},
                     "g/m3");
   problems.throw_if_errors();

@@ -10,7 +10,12 @@
 // Cost: 79 lines per evaluation, 8 microseconds; meant for tables, not for inner loops.
 #pragma once
 
+#include "core/number_range.h"
+
 namespace fanbeam::atmosphere {
+
+inline constexpr core::NumberRange kGasPressures_hPa{0.0, 2000.0};  // of dry air
+inline constexpr core::NumberRange kGasTemperatures_K{100.0, 350.0};
 
 struct GasAttenuation {
   double oxygen_dB_per_km = 0.0;  // lines and dry continuum
@@ -19,8 +24,7 @@ struct GasAttenuation {
   double total_dB_per_km() const { return oxygen_dB_per_km + water_dB_per_km; }
 };
 
-// frequency 1e9 to 1e12 Hz, dry pressure 0 to 2000 hPa, temperature 100 to 350 K, vapour density
-// 0 to 300 g/m3. Throws InputError: E-RANGE, E-NONFINITE (all wrong inputs together).
+// frequency 1e9 to 1e12 Hz, dry pressure and temperature as above, vapour density 0 to 300 g/m3. Throws InputError: E-RANGE, E-NONFINITE (all wrong inputs together).
 GasAttenuation gas_attenuation(double frequency_Hz, double dry_pressure_hPa, double temperature_K,
                                double vapour_density_g_per_m3);
 

@@ -181,8 +181,7 @@ enum { FANBEAM_ATTITUDE = 1, FANBEAM_RCS = 2 };
 /* Where a point scatterer stands until told otherwise; a speed of its own is not modelled. */
 typedef struct fanbeam_target {
   uint32_t size;
-  uint32_t
-      given; /* FANBEAM_ATTITUDE, FANBEAM_RCS: else as set before, the scene's, or to the north */
+  uint32_t given;   /* FANBEAM_ATTITUDE, FANBEAM_RCS: else as set before, the scene's, or north */
   const char* name; /* one of the scene's, all that share it; another one is new and needs an rcs */
   double latitude_rad, longitude_rad, height_m; /* as of a pose */
   double roll_rad, pitch_rad, heading_rad;      /* with FANBEAM_ATTITUDE; as of a pose */

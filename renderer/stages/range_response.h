@@ -17,7 +17,8 @@
 // Bound, dB. An echo keeps at least K_0 in its own cell, and fills the cells around it; with E the
 // largest echo in each range cell of what the scene holds (largest_echo.h)
 //     max(-10 log10 K_0, change of a pixel by sum over k away from 0 of K_|k| E(row - k))
-// (display_floor.h), at most the window; the whole window where double bounce is possible. Where a bin is about a cell, K_1 is above 10 % and the effect always runs.
+// (display_floor.h), at most the window; the whole window where double bounce is possible. Where a bin
+// is about a cell, K_1 is above 10 % and the effect always runs.
 #pragma once
 
 #include <vector>

@@ -3,8 +3,6 @@
 import csv
 import json
 import subprocess
-import threading
-import time
 
 import fanbeam
 import jsonschema
@@ -314,7 +312,7 @@ def test_labels_have_the_number_of_their_frame_however_long_a_session_runs(scene
     assert frame.labels["frame"] == number
 
 
-def test_labels_keep_to_the_threads_of_their_scene(tmp_path):
+def test_labels_keep_to_the_threads_of_their_scene(tmp_path, share_of_all_threads):
     scene = (
         "[scene]\nname = 'boxes'\norigin = { latitude_deg = 52.0, longitude_deg = 10.0, height_m = 0.0 }\nvertical_datum = 'scene'\n"
         "[terrain]\nhalf_extent_m = 3000.0\nspacing_m = 100.0\n"
@@ -327,17 +325,5 @@ def test_labels_keep_to_the_threads_of_their_scene(tmp_path):
     (tmp_path / "scene.toml").write_text(scene)
     boxes = fanbeam.Scene.open(tmp_path, threads=1)
     boxes.set_samples(0.3)
-    ratios = []
-
-    # As of a signal's frame (signal_test.py); other threads took a tenth more.
-    def work():
-        of_all, of_this = time.process_time(), time.thread_time()
-        for _ in range(3):
-            boxes.render(0, labels=True)
-        ratios.append((time.process_time() - of_all) / (time.thread_time() - of_this))
-
-    for _ in range(3):
-        thread = threading.Thread(target=work)
-        thread.start()
-        thread.join()
-    assert min(ratios) < 1.03
+    # Other threads took a tenth more.
+    assert share_of_all_threads(lambda: [boxes.render(0, labels=True) for _ in range(3)]) < 1.03

@@ -52,6 +52,17 @@ int directions_held(const sensors::Sensor& sensor, double height_m, double azimu
   return tried;
 }
 
+sensors::Sensor turned_sensor(sensors::ScanSurface surface, double roll_deg, double pitch_deg,
+                              double boresight_deg) {
+  sensors::Sensor sensor = tests::hivision(8);
+  sensor.scan.surface = surface;
+  sensor.scan.stabilised = false;
+  sensor.antenna.boresight_elevation_rad = core::radians(boresight_deg);
+  sensor.mounting.roll_rad = core::radians(roll_deg);
+  sensor.mounting.pitch_rad = core::radians(pitch_deg);
+  return sensor;
+}
+
 }  // namespace
 
 TEST_CASE("Fans begin at the ground below and reach the end of the gate", "[elevation_fan]") {
@@ -155,12 +166,8 @@ TEST_CASE("Fans of turned antennas hold the ground on both sides of the lowest d
                          {-160.0, -20.0, 10.0}})
     for (const sensors::ScanSurface surface :
          {sensors::ScanSurface::plane, sensors::ScanSurface::cone}) {
-      sensors::Sensor sensor = tests::hivision(8);
-      sensor.scan.surface = surface;
-      sensor.scan.stabilised = false;
-      sensor.antenna.boresight_elevation_rad = core::radians(of.boresight_deg);
-      sensor.mounting.roll_rad = core::radians(of.roll_deg);
-      sensor.mounting.pitch_rad = core::radians(of.pitch_deg);
+      const sensors::Sensor sensor =
+          turned_sensor(surface, of.roll_deg, of.pitch_deg, of.boresight_deg);
       constexpr double kAzimuth_rad = 0.2, kAntenna_m = 300.0;
       const std::vector<double> edges = edges_of(sensor, kAntenna_m, 0.0, kAzimuth_rad);
       INFO("roll " << of.roll_deg << ", pitch " << of.pitch_deg << ", cone "
@@ -189,14 +196,9 @@ TEST_CASE("Fans of tilted antennas hold the ground of gates that begin before th
                          {-30.0, -20.0, -50.0, 50.0, 100.0}})
     for (const sensors::ScanSurface surface :
          {sensors::ScanSurface::plane, sensors::ScanSurface::cone}) {
-      sensors::Sensor sensor = tests::hivision(8);
-      sensor.scan.surface = surface;
-      sensor.scan.stabilised = false;
-      sensor.antenna.boresight_elevation_rad = core::radians(of.boresight_deg);
+      sensors::Sensor sensor = turned_sensor(surface, of.roll_deg, of.pitch_deg, of.boresight_deg);
       sensor.antenna.elevation.half_power_width_rad = core::radians(40.0);
       sensor.antenna.elevation.cut_rad = core::radians(of.reach_deg);
-      sensor.mounting.roll_rad = core::radians(of.roll_deg);
-      sensor.mounting.pitch_rad = core::radians(of.pitch_deg);
       sensor.range.minimum_m = of.height_m / 2.0;
       sensor.range.cells = 60;
       int held = 0;

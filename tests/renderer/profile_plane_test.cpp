@@ -217,6 +217,7 @@ TEST_CASE("Rows of the C-scope over level ground follow the closed form, however
       }
       INFO("pitch " << pitch_deg << " deg");
       CHECK(known > 100);
+      // The density bends within a piece of up to 0.002 rad; 0.012 dB as measured, 0.1 if spread evenly.
       CHECK(largest_dB < 0.015);
     }
 }

@@ -64,7 +64,8 @@ void SliceDeposit::add(const VisiblePieces& pieces, const Slice& slice, const Si
 // the near one: dP/de R^3 goes with g^2 [sigma0 / sin(psi)] R (slice_power.h), and evenly from end to
 // end.
 double SliceDeposit::tilt_of(const VisiblePieces& pieces, const SineWeights& weights,
-                             const PiecePowers& powers, int i) const {
+                             const PiecePowers& powers, int i, const Rows& rows) const {
+  if (rows.low - rows.high <= 1.0) return 0.0;  // over two rows at most
   const double* const nrcs = tables_.nrcs() + pieces.material[i] * NrcsTable::kEntries;
   const double q_m = pieces.facet_m[i] / std::sqrt(pieces.facet_d2[i]);
   const bool cone = world_.sensor.scan.surface == sensors::ScanSurface::cone;
@@ -115,9 +116,9 @@ void SliceDeposit::add_special(const VisiblePieces& pieces, const SineWeights& w
   }
   if (bins.elevation_W_m3_per_rad == nullptr) return;
   const double range_m = powers.range_m[i];
-  deposit_tilted(powers.high_row[i], powers.low_row[i],
-                 power_W_per_rad * range_m * range_m * range_m, tilt_of(pieces, weights, powers, i),
-                 bins.elevation_W_m3_per_rad + 1, world_.sensor.display.cscope_rows);
+  deposit(powers.high_row[i], powers.low_row[i], power_W_per_rad * range_m * range_m * range_m,
+          bins.elevation_W_m3_per_rad + 1, world_.sensor.display.cscope_rows,
+          tilt_of(pieces, weights, powers, i, {powers.high_row[i], powers.low_row[i]}));
 }
 
 // The row of a point of the slice in a cone scan, whose elevation is atan2(up, forward).
@@ -166,7 +167,7 @@ void SliceDeposit::add_across(const VisiblePieces& pieces, const Slice& slice,
       const double far_row = cone_row(slice, pieces.far_distance_m[i], pieces.far_height_m[i]);
       rows = {std::min(near_row, far_row), std::max(near_row, far_row)};
     }
-    if (rows.low - rows.high > 1.0) rows.tilt = tilt_of(pieces, weights, powers, i);
+    rows.tilt = tilt_of(pieces, weights, powers, i, rows);
     const int first = std::max(static_cast<int>(std::floor(sweep.from)), 0);
     const int last = std::min(static_cast<int>(std::floor(sweep.to)), bins.sub_columns - 1);
     const double width = sweep.to - sweep.from;
@@ -207,9 +208,9 @@ void SliceDeposit::add_to_sub_column(const VisiblePieces& pieces, const PiecePow
   if (bins.elevation_W_m3_per_rad == nullptr) return;
   const int row_count = world_.sensor.display.cscope_rows;
   const double range_m = powers.range_m[i];
-  deposit_tilted(rows.high, rows.low, power_W_per_rad * range_m * range_m * range_m, rows.tilt,
-                 bins.elevation_W_m3_per_rad + column * static_cast<std::size_t>(row_count),
-                 row_count);
+  deposit(rows.high, rows.low, power_W_per_rad * range_m * range_m * range_m,
+          bins.elevation_W_m3_per_rad + column * static_cast<std::size_t>(row_count), row_count,
+          rows.tilt);
 }
 
 }  // namespace fanbeam::renderer

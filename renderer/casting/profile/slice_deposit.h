@@ -39,9 +39,6 @@ class SliceDeposit {
                      const SliceBins& bins) const;
   void add_special(const VisiblePieces& pieces, const SineWeights& weights,
                    const PiecePowers& powers, int i, const SliceBins& bins) const;
-  double tilt_of(const VisiblePieces& pieces, const SineWeights& weights, const PiecePowers& powers,
-                 int i) const;
-
   // From and to in sub-columns.
   struct Sweep {
     double from = 0.0, to = 0.0;
@@ -51,8 +48,10 @@ class SliceDeposit {
   // In rows of the picture.
   struct Rows {
     double high, low;
-    double tilt = 0.0;  // of deposit_tilted()
+    double tilt = 0.0;  // of deposit()
   };
+  double tilt_of(const VisiblePieces& pieces, const SineWeights& weights, const PiecePowers& powers,
+                 int i, const Rows& rows) const;
   void add_across(const VisiblePieces& pieces, const Slice& slice, const SineWeights& weights,
                   const PiecePowers& powers, const SliceBins& bins) const;
   void add_to_sub_column(const VisiblePieces& pieces, const PiecePowers& powers, int i,
