@@ -9,6 +9,7 @@
 #include "benchmarks/campaign_cost.h"
 #include "benchmarks/default_settings.h"
 #include "benchmarks/estimate_check.h"
+#include "benchmarks/layer_cost.h"
 #include "benchmarks/measure.h"
 #include "benchmarks/plan_cost.h"
 #include "benchmarks/scaling.h"
@@ -31,6 +32,7 @@ struct Report {
   std::vector<SceneFigures> scenes;
   std::vector<AgreementFigures> agreement;  // in scenes without figures of their own
   std::optional<DefaultFigures> rain;
+  std::vector<LayerCost> layers;
   std::vector<BoundCase> bounds;
   std::vector<EstimateCase> estimates;
   std::optional<CampaignFigures> campaigns;

@@ -113,6 +113,7 @@ Report measure(const std::vector<BenchScene>& scenes, const Effort& effort, int 
   if (const auto obstacles = load(kObstacleScene))
     report.agreement.push_back(measure_agreement(view_at(*obstacles, kDistances_m[1]), effort));
   report.rain = measure_defaults(kRainScene, effort, threads);
+  report.layers = measure_layers(effort);
   report.campaigns = measure_campaigns(effort);
   report.other_cores = machine.other_cores();  // what follows is not timed
   report.bounds = check_bounds(effort);

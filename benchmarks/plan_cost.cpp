@@ -111,7 +111,7 @@ void measure_absence(const View& view, const Effort& effort, PlanFigures& figure
 void measure_conditions(const View& view, const Effort& effort, PlanFigures& figures) {
   const scenes::Scene& scene = *view.scene->scene;
   const renderer::Sampling sampling = renderer::default_sampling(scene.caster.chosen);
-  std::vector<double> conditions_ms, plain_ms, layers_ms;
+  std::vector<double> conditions_ms;
   for (int turn = 0; turn < std::max(effort.turns, 2); ++turn) {
     scenes::Conditions other{.weather = scene.weather};
     other.weather->rain_rate_mm_per_h = 1.0 + turn;
@@ -122,20 +122,7 @@ void measure_conditions(const View& view, const Effort& effort, PlanFigures& fig
                                          renderer::effects_of(rainy->plan, 0));
     conditions_ms.push_back(measure::milliseconds_since(begin));
   }
-  const renderer::Effects effects = renderer::effects_of(scene.plan, 0);
-  const renderer::FrameRenderer plain(scene.world, sampling, {}, effects);
-  const renderer::FrameRenderer layered(scene.world, sampling,
-                                        {.layers = true, .cscope_layers = true}, effects);
-  for (int turn = -1; turn < std::max(effort.turns, 2); ++turn)
-    for (const auto& [renderer, times_ms] :
-         {std::pair(&plain, &plain_ms), std::pair(&layered, &layers_ms)}) {
-      const auto begin = measure::Clock::now();
-      renderer->render(view.pose);
-      if (turn >= 0) times_ms->push_back(measure::milliseconds_since(begin));
-    }
   figures.conditions_ms = core::median(conditions_ms);
-  figures.plain_ms = core::median(plain_ms);
-  figures.layers_ms = core::median(layers_ms);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What planning, other conditions and layers of ground truth cost, what a plan saves, and that what it leaves out costs nothing.
+// What planning and other conditions cost, what a plan saves, and that what it leaves out costs nothing.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,6 @@ struct PlanFigures {
   double plan_ms = 0.0;  // facts and plan, median of a few builds
   // Another rain: plan, conditions, and the stages of the first frame; the site stands.
   double conditions_ms = 0.0;
-  // At the default sampling of the scene's caster, layers of both scopes over none.
-  double plain_ms = 0.0, layers_ms = 0.0;
 
   // A frame as planned, with every effect forced on that can occur in the scene, and with the
   // realisation (speckle, fluctuating targets) forced on besides.

@@ -6,8 +6,8 @@
 #include "core/dispatch.h"
 #include "renderer/casting/profile/piece_loops.h"
 #include "renderer/plan/largest_echo.h"
+#include "renderer/stages/piece_ends.h"
 #include "renderer/stages/wide_pieces.h"
-#include "renderer/surfaces/nrcs_table.h"
 #include "sensors/antenna/beam_pattern.h"
 
 namespace fanbeam::renderer {
@@ -24,23 +24,6 @@ struct Buffers {
 Buffers& buffers_of_thread() {
   thread_local Buffers buffers;
   return buffers;
-}
-
-// Of each piece, side by side for the vector units: its lower end and how the upper one differs.
-struct Ends {
-  using Column = VisiblePieces::Column<double>;
-  alignas(64) Column low_per_m, way_per_m, per_way_m;  // inverse ranges; 1 over their difference
-  alignas(64) Column middle_per_m;
-  alignas(64) Column facet_m;         // from the sensor to the facet's plane
-  alignas(64) Column nrcs, nrcs_way;  // sigma0 / sin(psi)
-  alignas(64) Column per_rows;
-  // Of the middle: sine of the grazing angle, sigma0, elevation.
-  alignas(64) Column middle_sine, middle_nrcs, middle_rad;
-};
-
-inline double between_0_and_1(double value) {
-  const double not_below = value > 0.0 ? value : 0.0;
-  return not_below < 1.0 ? not_below : 1.0;
 }
 
 // Ranges and the integral of slice_power.h by its middle: what weigh() and place_in_rows() go on from.
@@ -73,54 +56,13 @@ FANBEAM_HOT(void, measure_middles, (const VisiblePieces& pieces, PiecePowers& po
   powers.count = count;
 }
 
-inline void find_ends(const LayerGrid& grid, const double* nrcs, const VisiblePieces& pieces,
-                      const PiecePowers& powers, Ends& ends) {
-  const double top_rad = grid.top_rad, rad_per_row = grid.rad_per_row;
-  const Out middle_sine = ends.middle_sine.data(), middle_nrcs = ends.middle_nrcs.data();
-  const Out middle_rad = ends.middle_rad.data();
-  const In near_m = powers.near_range_m.data(), far_m = powers.far_range_m.data();
-  const In range_m = powers.range_m.data(), facet_m = pieces.facet_m.data();
-  const In facet_d2 = pieces.facet_d2.data();
-  const In high_row = powers.high_row.data(), low_row = powers.low_row.data();
-  const std::int32_t* material = pieces.material.data();
-  const Out low_per_m = ends.low_per_m.data(), way_per_m = ends.way_per_m.data();
-  const Out per_way_m = ends.per_way_m.data(), middle_per_m = ends.middle_per_m.data();
-  const Out to_plane_m = ends.facet_m.data(), per_rows = ends.per_rows.data();
-  const Out low_nrcs = ends.nrcs.data(), nrcs_way = ends.nrcs_way.data();
-  const int count = pieces.count;
-  FANBEAM_INDEPENDENT
-  for (int i = 0; i < count; ++i) {
-    const double low = 1.0 / near_m[i], high = 1.0 / far_m[i];
-    const double way = high - low, span = low_row[i] - high_row[i];
-    const double plane_m = facet_m[i] / std::sqrt(facet_d2[i]);
-    low_per_m[i] = low;
-    way_per_m[i] = way;
-    per_way_m[i] = way != 0.0 ? 1.0 / way : 0.0;
-    middle_per_m[i] = 1.0 / range_m[i];
-    to_plane_m[i] = plane_m;
-    per_rows[i] = span > 0.0 ? 1.0 / span : 0.0;
-    double low_share = 0.0, high_share = 0.0;
-    const int table = material[i] * NrcsTable::kEntries;
-    const int l = table + NrcsTable::index_of(between_0_and_1(plane_m * low), low_share);
-    const int h = table + NrcsTable::index_of(between_0_and_1(plane_m * high), high_share);
-    const double value = nrcs[l] + (nrcs[l + 1] - nrcs[l]) * low_share;
-    low_nrcs[i] = value;
-    const double difference = nrcs[h] + (nrcs[h + 1] - nrcs[h]) * high_share - value;
-    nrcs_way[i] = difference;
-    const double sine = between_0_and_1(plane_m * middle_per_m[i]);
-    middle_sine[i] = sine;
-    middle_nrcs[i] = (value + difference / 2) * sine;
-    middle_rad[i] = top_rad - (low_row[i] + high_row[i]) / 2 * rad_per_row;
-  }
-}
-
 // One piece on its way into the cells. All of it is part of the loop over pieces: a call out of code of
 // the machine's level would cost more than what is called.
 struct PieceInCells {
   const LayerGrid& grid;
   const VisiblePieces& pieces;
   const PiecePowers& powers;
-  const Ends& ends;
+  const PieceEnds& ends;
   AzimuthMask azimuths;
   int i;
 
@@ -152,17 +94,9 @@ struct PieceInCells {
     if (elevation_rad > grid.lowest_rad && elevation_rad < grid.highest_rad)
       cells.add(cell, at, echo);
   }
-  // -1 before the gate, `cells` behind it.
-  [[gnu::always_inline]] int cell_of(double range_m) const {
-    const double place = (range_m - grid.minimum_m) * grid.cells_per_m;
-    return static_cast<int>(std::min(std::max(place, -1.0), grid.cells + 0.0) + 1.0) - 1;
-  }
-
   [[gnu::always_inline]] void add_ranges(LayerCells& ranges) const {
-    const double a_m = powers.near_range_m[i], b_m = powers.far_range_m[i];
-    const double near_m = std::min(a_m, b_m) + pieces.nearer_m[i];
-    const double far_m = std::max(a_m, b_m) + pieces.farther_m[i];
-    const int first = cell_of(near_m), last = cell_of(far_m);
+    const double near_m = ends.nearest_m[i], far_m = ends.farthest_m[i];
+    const int first = ends.first_cell[i], last = ends.last_cell[i];
     if (first == last) {
       if (first >= 0 && first < grid.cells) put(first, azimuths, middle(), ranges);
     } else if (pieces.farther_m[i] > pieces.nearer_m[i]) {
@@ -203,17 +137,16 @@ struct PieceInCells {
   }
 
   [[gnu::always_inline]] void add_rows(LayerCells& rows) const {
-    const double high_row = powers.high_row[i], low_row = powers.low_row[i];
-    if (!(low_row >= 0.0) || high_row >= grid.rows) return;
-    const double whole_W = powers.before_W_per_rad[i];
-    if (static_cast<int>(high_row) == static_cast<int>(low_row) && high_row >= 0.0) {
+    const int first = ends.first_row[i], last = ends.last_row[i];
+    if (last < first) return;
+    if (ends.one_row[i] != 0) {
       const double per_m = ends.middle_per_m[i];
       if (per_m > grid.nearest_per_m || per_m <= grid.farthest_per_m) return;
-      put(static_cast<int>(high_row), azimuths, middle().compensated(), rows);
+      put(first, azimuths, middle().compensated(), rows);
       return;
     }
-    const int first = static_cast<int>(std::max(high_row, 0.0));
-    const int last = static_cast<int>(std::min(low_row, grid.rows - 0.5));
+    const double high_row = powers.high_row[i], low_row = powers.low_row[i];
+    const double whole_W = powers.before_W_per_rad[i];
     const double per_row_W_m2 = whole_W * ends.per_rows[i] * powers.range_m[i] * powers.range_m[i];
     for (int row = first; row <= last; ++row) {
       const double high = std::max(high_row, row + 0.0), low = std::min(low_row, row + 1.0);
@@ -232,8 +165,10 @@ FANBEAM_HOT(void, sort_in,
             (const LayerGrid& grid, const PowerTables& tables, const VisiblePieces& pieces,
              const PiecePowers& powers, LayerCells& ranges, LayerCells& rows),
             (grid, tables, pieces, powers, ranges, rows)) {
-  Ends ends;
+  PieceEnds ends;
   find_ends(grid, tables.nrcs(), pieces, powers, ends);
+  find_cells(grid, pieces, powers, ends);
+  find_rows(grid, powers, ends);
   const bool with_rows = rows.size() > 0;
   for (int i = 0; i < pieces.count; ++i) {
     const PieceInCells piece{
