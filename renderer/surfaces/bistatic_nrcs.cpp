@@ -103,18 +103,12 @@ BistaticNrcs::BistaticNrcs(NrcsTable monostatic) : monostatic_(std::move(monosta
                                         [](double sin_out) { return std::sqrt(sin_out); });
   rooted_share_[kSteps + 1] = rooted_share_[kSteps];
   for (std::size_t i = 0; i <= kSteps; ++i)
-    share_[i] = std::fmin(share_at(sine_in(static_cast<int>(i)), tabulated().by_sine[i]), 1.0);
+    share_[i] = std::fmin(integrated_share(monostatic_, tabulated().by_sine[i],
+                                           [&](double sin_out) {
+                                             return factor(sine_in(static_cast<int>(i)), sin_out);
+                                           }),
+                          1.0);
   share_[kSteps + 1] = share_[kSteps];
-}
-
-template <class Ways>
-double BistaticNrcs::share_at(double sin_in, const Ways& ways) const {
-  return integrated_share(monostatic_, ways,
-                          [&](double sin_out) { return factor(sin_in, sin_out); });
-}
-
-double BistaticNrcs::scattered_share(double sin_in) const {
-  return share_at(sin_in, half_ways(sin_in));
 }
 
 }  // namespace fanbeam::renderer

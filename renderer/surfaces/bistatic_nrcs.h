@@ -31,7 +31,9 @@ class BistaticNrcs {
 
   const NrcsTable& monostatic() const { return monostatic_; }
 
-  // scattered_share() of it, linear between 33 even steps of the sine, at most 1.
+  // Share of the power arriving at a grazing angle that the surface scatters into the half space:
+  // the integral of sigma_B / (4 pi sin psi_i) over all directions, linear between 33 even steps of
+  // the sine, at most 1; relative error about 1e-2.
   double scattered(double sin_in) const noexcept {
     const double position = std::fmin(sin_in, 1.0) * kSteps;
     const auto index = static_cast<std::size_t>(position);
@@ -50,14 +52,7 @@ class BistaticNrcs {
     return factor(sin_in, sin_out) * monostatic_.sigma0_over_sine(normal_on_half);
   }
 
-  // Share of the power arriving at a grazing angle that the surface scatters into the half space:
-  // the integral of sigma_B / (4 pi sin psi_i) over all directions; relative error about 1e-2.
-  double scattered_share(double sin_in) const;
-
  private:
-  template <class Ways>
-  double share_at(double sin_in, const Ways& ways) const;
-
   // sigma_B / sin(psi_i) over gamma(n.h); both sines above 0.
   double factor(double sin_in, double sin_out) const noexcept {
     return std::fmin(largest_factor(sin_in), largest_factor(sin_out)) * std::sqrt(sin_out / sin_in);

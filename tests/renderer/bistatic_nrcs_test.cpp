@@ -64,10 +64,10 @@ TEST_CASE("The limit acts where the unlimited law passes 1 and nowhere else", "[
   CHECK(even.sigma0_over_sine(0.2, 0.3, 0.5) == Approx(0.9 * std::sqrt(1.5)).epsilon(1e-12));
   CHECK(even.sigma0_over_sine(0.0225, 0.3, 0.5) ==
         Approx(0.9 * std::sqrt(0.3 / 0.0225) * 0.5).epsilon(0.02));
-  CHECK(even.scattered_share(0.16) == Approx(0.75).epsilon(0.02));
+  CHECK(even.scattered(0.16) == Approx(0.75).epsilon(0.02));
   for (const double sine : {0.08, 0.03, 0.01, 0.003}) {
-    CHECK(even.scattered_share(sine) > 0.97);
-    CHECK(even.scattered_share(sine) <= 1.0);
+    CHECK(even.scattered(sine) > 0.97);
+    CHECK(even.scattered(sine) <= 1.0);
   }
   // sigma_B / sin stays finite however flat the wave comes in.
   CHECK(even.sigma0_over_sine(1e-9, 1.0, 0.7) < 3.1);
@@ -101,7 +101,7 @@ TEST_CASE("A surface mirrors no more than it leaves unscattered", "[bistatic]") 
   CHECK(mirrors.power(1, 1.0, 1.0) < 0.25);
   CHECK(mirrors.power(2, 1.0, 1.0) == 0.0);
   for (int i = 1; i <= 32; ++i)
-    CHECK(mirrors.power(1, i / 32.0, 1.0) + sheet.scattered_share(i / 32.0) <= 1.0 + 1e-12);
+    CHECK(mirrors.power(1, i / 32.0, 1.0) + sheet.scattered(i / 32.0) <= 1.0 + 1e-12);
 }
 
 // Bounds of a surface's state count on it. The second surface is darker at grazing angles and bright at
