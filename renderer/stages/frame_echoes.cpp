@@ -77,7 +77,7 @@ class SurfaceCaster {
       : world_(world),
         antenna_(antenna),
         settings_(settings),
-        key_{settings.seed, core::kStreamFrameEcho, frame_index},
+        key_{seed_of_look(settings.seed, settings.look), core::kStreamFrameEcho, frame_index},
         fan_(world, settings.sampling),
         elevation_gain_(world.sensor.antenna.elevation),
         path_loss_(FramePathLoss(world).from(antenna.position_m.z)) {}
@@ -159,14 +159,15 @@ class SurfaceCaster {
 void add_targets(const World& world, const sensors::AntennaFrame& antenna, const FramePose& pose,
                  const FrameEchoSettings& settings, FrameEchoes& result) {
   const Fluctuation fluctuation{false, settings.swerling, 1, settings.seed, pose.frame_index};
-  const core::RandomKey key{settings.seed, core::kStreamFrameEcho, pose.frame_index};
+  const core::RandomKey key{seed_of_look(settings.seed, settings.look), core::kStreamFrameEcho,
+                            pose.frame_index};
   for (core::Echo echo : point_echoes(world, antenna, pose.time_s, settings.multipath)) {
     const PointTarget& target = world.targets[echo.object_id];
     const glm::dvec3 line_m = target.position_at(pose.time_s) - antenna.position_m;
     echo.radial_speed_mps = glm::dot(glm::normalize(line_m),
                                      target.velocity_at(pose.time_s) - settings.own_velocity_mps);
     if (settings.swerling)
-      echo.power_W *= target_factor(target.swerling, fluctuation, echo.object_id, 0, 0);
+      echo.power_W *= target_factor(target.swerling, fluctuation, echo.object_id, 0, settings.look);
     // All echoes of a target by way of the ground share its phase.
     const auto words = core::random_words(key, kTargetCells + echo.object_id, 0);
     result.echoes.push_back(echo);

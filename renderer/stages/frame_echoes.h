@@ -7,7 +7,7 @@
 // at azimuth gain 1 (core/echo.h): whoever forms beams or has element patterns weighs it. The sum
 // over a cell is an unbiased estimate of the power picture's expectation in that cell.
 //
-// phase_rad is the scatterer's own, uniform, a pure function of (seed, frame, place in the fan or
+// phase_rad is the scatterer's own, uniform, a pure function of (seed, frame, look, place in the fan or
 // number of the target): that of the path's length comes on top. With several echoes in a
 // resolution cell their sum is fully developed speckle. A new frame draws new phases.
 //
@@ -48,9 +48,16 @@ struct FrameEchoSettings {
   double half_fan_rad = 0.0;  // to either side of boresight; 0: all that the picture's beam reaches
   glm::dvec3 own_velocity_mps{0.0};       // of the antenna, in scene axes
   Multipath multipath = Multipath::none;  // of point targets
-  bool swerling = false;                  // targets fluctuate, from frame to frame
+  // Targets fluctuate: of cases 1 and 3 from frame to frame, of 2 and 4 from look to look.
+  bool swerling = false;
   std::uint64_t seed = 0;
+  std::uint32_t look = 0;  // of the frame: places and phases of its own
 };
+
+// What a look's own draws begin with: far apart, so that no two runs of neighbouring seeds share a look.
+constexpr std::uint64_t seed_of_look(std::uint64_t seed, std::uint32_t look) {
+  return seed + look * std::uint64_t{0x9E3779B97F4A7C15U};
+}
 
 struct FrameEchoes {
   // Surfaces from left to right and from below, then the targets in their order. `object_id` is

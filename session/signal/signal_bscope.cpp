@@ -15,18 +15,16 @@
 namespace fanbeam::session {
 namespace {
 
-// Looks draw from seeds far apart, so that no two runs of neighbouring seeds share a look.
-constexpr std::uint64_t kSeedStep = 0x9E3779B97F4A7C15U;
-
 renderer::FrameEchoSettings echo_settings(const SignalBscopeSettings& settings,
-                                          std::uint64_t seed) {
+                                          std::uint32_t look) {
   renderer::FrameEchoSettings result;
   result.sampling.sub_columns = settings.azimuths;
   result.sampling.rays_per_cell = settings.rays_per_cell;
   result.own_velocity_mps = settings.own_velocity_mps;
   result.multipath = settings.multipath;
   result.swerling = settings.swerling;
-  result.seed = seed;
+  result.seed = settings.seed;
+  result.look = look;
   return result;
 }
 
@@ -76,10 +74,9 @@ SignalBscope signal_bscope(const renderer::World& world, const renderer::FramePo
   result.power_W.assign(
       static_cast<std::size_t>(sensor.range.cells) * static_cast<std::size_t>(sensor.scan.columns),
       0.0);
-  for (int look = 0; look < result.looks; ++look) {
-    const std::uint64_t seed = settings.seed + static_cast<std::uint64_t>(look) * kSeedStep;
+  for (std::uint32_t look = 0; look < static_cast<std::uint32_t>(result.looks); ++look) {
     const renderer::FrameEchoes found =
-        renderer::frame_echoes(world, pose, echo_settings(settings, seed));
+        renderer::frame_echoes(world, pose, echo_settings(settings, look));
     result.rays += found.rays;
     result.scatterers += found.echoes.size();
     result.events = found.events;  // of every look the same
@@ -90,7 +87,7 @@ SignalBscope signal_bscope(const renderer::World& world, const renderer::FramePo
     const core::EffectPlan plan =
         receiver_plan(settings.budget, shown, receiver, sum_W(found.echoes), beat);
     keep_larger(plan, result.plan);
-    const core::RandomKey key{seed, 0, pose.frame_index};
+    const core::RandomKey key{renderer::seed_of_look(settings.seed, look), 0, pose.frame_index};
     if (plan.runs(core::EffectId::phase_noise)) {
       beat = with_phase_noise(
           {}, receiver, key, delays,

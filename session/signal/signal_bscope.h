@@ -5,7 +5,8 @@
 // cells; the powers of the looks are averaged. One look is a picture with its speckle, as a radar
 // shows it; many come to the expected power of the renderer's picture with the same range response
 // (renderer/accuracy/swept_picture.h), which is how the two levels are held against each other.
-// Neglected: what those headers say; looks are independent.
+// Looks are independent but for targets of Swerling cases 1 and 3, which are one draw a frame.
+// Neglected: what those headers say.
 #pragma once
 
 #include <cstddef>

@@ -158,6 +158,34 @@ TEST_CASE("Radial speeds of echoes are those of kinematics", "[frame_echoes]") {
   CHECK(world.targets[0].velocity_at(-0.001) == glm::dvec3(0.0));
 }
 
+TEST_CASE("Looks of a frame share the draw of Swerling 1 and 3, and have their own of 2 and 4",
+          "[frame_echoes]") {
+  renderer::World world = street(16);
+  for (const auto which :
+       {core::Swerling::case1, core::Swerling::case2, core::Swerling::case3, core::Swerling::case4})
+    world.targets.push_back({.name = "mast",
+                             .rcs = materials::ConstantRcs{100.0},
+                             .path = {{0.0, {0.0, 1000.0, 50.0}}},
+                             .swerling = which});
+  renderer::FramePose pose = tests::level_pose(kHeight_m);
+  renderer::FrameEchoSettings settings = fine(1);
+  settings.swerling = true;
+  const renderer::FrameEchoes first = renderer::frame_echoes(world, pose, settings);
+  settings.look = 1;
+  const renderer::FrameEchoes second = renderer::frame_echoes(world, pose, settings);
+  pose.frame_index = 1;
+  const renderer::FrameEchoes next = renderer::frame_echoes(world, pose, settings);
+  REQUIRE(first.echoes.size() - first.first_target == 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double first_W = first.echoes[first.first_target + i].power_W;
+    const double second_W = second.echoes[second.first_target + i].power_W;
+    CHECK((first_W == second_W) == (i % 2 == 0));
+    CHECK(next.echoes[next.first_target + i].power_W != second_W);
+    CHECK(first.phase_rad[first.first_target + i] != second.phase_rad[second.first_target + i]);
+  }
+  CHECK(first.echoes[0].elevation_rad != second.echoes[0].elevation_rad);  // its own places
+}
+
 TEST_CASE("Echoes of a frame do not depend on threads, and differ from frame to frame",
           "[frame_echoes]") {
   const renderer::World world = street(8);
