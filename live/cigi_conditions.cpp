@@ -13,6 +13,10 @@ namespace fanbeam::live {
 namespace {
 
 namespace cigi = feeds::cigi;
+using Settings = session::SensorSettings;
+
+// Components of class sensor.
+constexpr std::uint16_t kTilt = 1, kStabilisation = 2, kHeights = 3;
 
 // Of severity 0 to 5.
 constexpr std::array<double, 6> kRain_mm_per_h{0.0, 1.0, 3.0, 8.0, 20.0, 50.0};
@@ -41,20 +45,53 @@ void CigiConditions::reset() {
   response_.reset();
   weather_.reset();
   edits_.clear();
-  changes_ = {own_weather_, own_surfaces_, sensor_, {}};
+  changes_ = {own_weather_, own_surfaces_, sensor_, {}, sensor_in_force_, true};
 }
 
-CigiConditions::Changes CigiConditions::changes() { return std::exchange(changes_, {}); }
+CigiConditions::Changes CigiConditions::changes() {
+  changes_.sensor_in_force = sensor_in_force_;
+  return std::exchange(changes_, {});
+}
 
-void CigiConditions::settle(const session::SensorSettings& tried, bool is_in_force) {
-  using Settings = session::SensorSettings;
-  if (is_in_force) {
-    sensor_in_force_ = tried;
-    return;
+std::vector<std::string> CigiConditions::try_sensor(Changes& changes, const TrySensor& try_to) {
+  std::vector<std::string> refusals;
+  if (!changes.sensor) return refusals;
+  const Settings& asked = *changes.sensor;
+  Settings& in_force = changes.sensor_in_force;
+  if (!try_to(asked)) {
+    in_force = asked;
+    return refusals;
   }
+  if (changes.is_reset)
+    if (const auto why = try_to(in_force)) refusals.push_back(*why);
+  // Packet by packet, as the weather is.
+  const auto take = [&](std::optional<std::uint16_t> component, auto... members) {
+    if (((in_force.*members == asked.*members) && ...)) return;
+    Settings made = in_force;
+    ((made.*members = asked.*members), ...);
+    const auto why = try_to(made);
+    if (!why) {
+      in_force = made;
+      return;
+    }
+    refusals.push_back(*why);
+    std::erase_if(changes.events,
+                  [&](const cigi::Event& event) { return event.event == component; });
+  };
+  take(kTilt, &Settings::boresight_elevation_rad);
+  take(kStabilisation, &Settings::stabilised);
+  take(kHeights, &Settings::cscope_mode);
+  take(std::nullopt, &Settings::low_dB, &Settings::high_dB, &Settings::noise_figure);
+  return refusals;
+}
+
+void CigiConditions::settle(const Changes& tried) {
+  // Where the host was reset meanwhile, that is tried next.
+  if (!tried.sensor || changes_.is_reset) return;
+  sensor_in_force_ = tried.sensor_in_force;
   // What came meanwhile stays.
   const auto take_back = [&](auto member) {
-    if (sensor_.*member == tried.*member) sensor_.*member = sensor_in_force_.*member;
+    if (sensor_.*member == (*tried.sensor).*member) sensor_.*member = sensor_in_force_.*member;
   };
   take_back(&Settings::boresight_elevation_rad);
   take_back(&Settings::stabilised);
@@ -161,7 +198,6 @@ bool CigiConditions::take(const cigi::SensorControl& packet) {
 
 bool CigiConditions::take(const cigi::ComponentControl& packet, std::uint32_t host_frame) {
   constexpr std::uint8_t kSensorClass = 3;
-  constexpr std::uint16_t kTilt = 1, kStabilisation = 2, kHeights = 3;
   using CScopeMode = sensors::Display::CScopeMode;
   if (packet.of != kSensorClass) return false;
   if (packet.component == kTilt && packet.state <= 1) {

@@ -35,8 +35,12 @@ class CigiConditions {
     std::optional<atmosphere::Weather> weather;
     std::optional<materials::SurfaceState> surfaces;
     std::optional<session::SensorSettings> sensor;
-    std::vector<feeds::cigi::Event> events;  // to be told once it is in force
+    std::vector<feeds::cigi::Event> events;     // to be told once it is in force
+    session::SensorSettings sensor_in_force{};  // of the host's
+    bool is_reset = false;                      // sensor_in_force is not set yet
   };
+  // Gives why not, where it is refused.
+  using TrySensor = std::function<std::optional<std::string>(const session::SensorSettings&)>;
 
   // `own`: the scene as it was opened.
   explicit CigiConditions(const scenes::Scene& own);
@@ -57,9 +61,11 @@ class CigiConditions {
   std::vector<std::string> settle(const scenes::Scene& now);
 
   Changes changes();
-  // Whether what changes() gave for the sensor is in force. What was refused is forgotten, or it would be
-  // refused again with all that comes later.
-  void settle(const session::SensorSettings& tried, bool is_in_force);
+  // The sensor of what changes() gave, all at once, or what of it can be: then sensor_in_force and the events
+  // are those that came into force. Gives why the rest was refused.
+  static std::vector<std::string> try_sensor(Changes& changes, const TrySensor& try_to);
+  // Behind try_sensor(). What was refused is forgotten, or it would be refused again with all that comes later.
+  void settle(const Changes& tried);
   const CigiView& view() const { return view_; }
   // Of a sensor whose host asked for its tracker.
   const std::optional<feeds::cigi::SensorResponse>& response() const { return response_; }

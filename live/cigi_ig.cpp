@@ -224,23 +224,26 @@ std::vector<std::uint8_t> CigiIg::answer(const scenes::Scene& scene, const Asked
 
 // Of what is refused the host is told; what came with it is in force all the same.
 void CigiIg::apply(CigiConditions::Changes& changes) {
-  const auto try_to = [&](const auto& set) {
+  const auto try_to = [&](const auto& conditions) -> std::optional<std::string> {
     try {
-      set();
-      return true;
+      session_.set(conditions);
+      return std::nullopt;
     } catch (const core::InputError& error) {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      refuse(core::to_string(error.problems().front()));
-      return false;
+      return core::to_string(error.problems().front());
     }
   };
-  if (changes.weather) try_to([&] { session_.set(*changes.weather); });
-  if (changes.surfaces) try_to([&] { session_.set(*changes.surfaces); });
-  if (!changes.sensor) return;
-  const bool is_set = try_to([&] { session_.set(*changes.sensor); });
-  if (!is_set) changes.events.clear();
+  std::vector<std::string> refusals;
+  const auto put = [&](const auto& conditions) {
+    if (!conditions) return;
+    if (const auto why = try_to(*conditions)) refusals.push_back(*why);
+  };
+  put(changes.weather);
+  put(changes.surfaces);
+  const auto of_sensor = CigiConditions::try_sensor(changes, try_to);
+  refusals.insert(refusals.end(), of_sensor.begin(), of_sensor.end());
   const std::lock_guard<std::mutex> lock(mutex_);
-  conditions_.settle(*changes.sensor, is_set);
+  for (const std::string& why : refusals) refuse(why);
+  conditions_.settle(changes);
 }
 
 std::int8_t CigiIg::wanted_database() const {

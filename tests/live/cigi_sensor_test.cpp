@@ -103,6 +103,44 @@ TEST_CASE("Switches work after a control that the sensor cannot follow", "[cigi]
   }
 }
 
+// All packets between two frames were refused with one of them, and a reset with what came behind it.
+TEST_CASE("A switch that is refused keeps out nothing that came with it, nor a reset", "[cigi]") {
+  const tests::TemporaryFolder folder;
+  std::filesystem::copy_file(FANBEAM_SOURCE_DIR "/scenes/braunschweig-26/truck.gltf",
+                             folder.path() / "truck.gltf");
+  // Slices show its truck with a stabilised antenna alone.
+  const auto session =
+      tests::live_session(folder, tests::kSmallScene +
+                                      "\n[[model]]\nfile = \"truck.gltf\"\nat = { runway = \"36\", "
+                                      "behind_threshold_m = 300.0 }\ndefault_material = \"metal\"\n"
+                                      "[accuracy]\ncaster = \"profile\"\n");
+  CigiIg ig(*session, core::VerticalDatum::scene);
+  const auto sensor = [&] { return session->scene()->description.sensor; };
+  const sensors::Sensor own = sensor();
+  const auto told = [&](const Bytes& bytes) {
+    ig.take(bytes, "host");
+    return packets_in(ig.begin_frame());
+  };
+  using CScopeMode = sensors::Display::CScopeMode;
+  const auto packets = told(message(1, {component(1, 1, -2.0F), component(2, 0), component(3, 2),
+                                        sensor_control(1, 0.7F, 0.5F, 0.0F)}));
+  REQUIRE(packets.size() == 4);
+  CHECK(packets[1].first == 117);
+  CHECK(packets[2].second.at<std::uint16_t>(2) == 1);
+  CHECK(packets[3].second.at<std::uint16_t>(2) == 3);
+  CHECK(sensor().antenna.boresight_elevation_rad == core::radians(-2.0));
+  CHECK(sensor().scan.stabilised);
+  CHECK(sensor().display.cscope_mode == CScopeMode::shadow);
+  CHECK(sensor().display.low_dB > own.display.low_dB);
+  CHECK(told(message(2, {component(2, 0), component(3, 1)}, kStandby)).size() == 3);
+  CHECK(sensor().antenna.boresight_elevation_rad == own.antenna.boresight_elevation_rad);
+  CHECK(sensor().display.cscope_mode == CScopeMode::flat_earth);
+  CHECK(sensor().display.low_dB == own.display.low_dB);
+  // Nothing of it comes back later.
+  CHECK(told(message(3, {component(2, 1)})).size() == 2);
+  CHECK(sensor().antenna.boresight_elevation_rad == own.antenna.boresight_elevation_rad);
+}
+
 TEST_CASE("A sensor whose tracker is asked for searches, in every frame until it is off",
           "[cigi]") {
   Station station;
