@@ -80,8 +80,8 @@ void process_samples(const FmcwRadar& radar, const ProcessingSettings& settings,
   const bool mends = settings.mitigation != signal::Mitigation::none;
   if (mends || radar.power_scale != 1.0) changed = frame.beats[0];
   if (mends)
-    frame.mended =
-        signal::mitigate(settings.mitigation, settings.mitigation_threshold, radar.array, changed);
+    frame.mended = signal::mitigate(settings.mitigation, settings.mitigation_threshold,
+                                    radar.waveform, radar.array, changed);
   if (radar.power_scale != 1.0) {
     const auto scale = static_cast<float>(std::sqrt(radar.power_scale));
     for (std::complex<float>& sample : changed.values) sample *= scale;

@@ -21,12 +21,6 @@ constexpr double kRealOverComplex = 2.64;
 
 using Crossed = std::vector<bool>;
 
-bool is_real(const FloatCube& cube, int channel, int chirp) {
-  const std::complex<float>* const values = cube.values.data() + cube.index(channel, chirp, 0);
-  return std::all_of(values, values + cube.shape.samples,
-                     [](const std::complex<float>& value) { return value.imag() == 0.0F; });
-}
-
 // Of the chirp of these channels.
 Crossed crossed_samples(const FloatCube& cube, const std::vector<int>& channels, int chirp,
                         double threshold) {
@@ -35,7 +29,6 @@ Crossed crossed_samples(const FloatCube& cube, const std::vector<int>& channels,
   for (const int channel : channels)
     for (int n = 0; n < samples; ++n)
       powers[static_cast<std::size_t>(n)] += std::norm(cube.at(channel, chirp, n));
-  if (channels.size() == 1 && is_real(cube, channels.front(), chirp)) threshold *= kRealOverComplex;
   std::vector<double> sorted = powers;
   const auto middle = sorted.begin() + samples / 2;
   std::nth_element(sorted.begin(), middle, sorted.end());
@@ -95,7 +88,8 @@ std::optional<Mitigation> mitigation_of(std::string_view text) {
   return std::nullopt;
 }
 
-std::size_t mitigate(Mitigation mitigation, double threshold, const Array& array, FloatCube& cube) {
+std::size_t mitigate(Mitigation mitigation, double threshold, const Waveform& waveform,
+                     const Array& array, FloatCube& cube) {
   if (!(threshold > 1.0)) refuse("threshold", threshold, "above 1");
   if (cube.shape.channels != array.channels())
     refuse("cube.channels", cube.shape.channels, "the channels of the array");
@@ -110,7 +104,9 @@ std::size_t mitigate(Mitigation mitigation, double threshold, const Array& array
   core::parallel_for(mended.size(), [&](std::size_t row) {
     const std::vector<int>& channels = groups[row / chirps];
     const int chirp = static_cast<int>(row % chirps);
-    const Crossed crossed = crossed_samples(cube, channels, chirp, threshold);
+    const bool is_one_real = channels.size() == 1 && !waveform.complex_baseband;
+    const Crossed crossed = crossed_samples(cube, channels, chirp,
+                                            is_one_real ? kRealOverComplex * threshold : threshold);
     const auto count = static_cast<std::size_t>(std::count(crossed.begin(), crossed.end(), true));
     if (count == 0 || 2 * count > crossed.size()) return;
     for (const int channel : channels) {

@@ -14,7 +14,8 @@
 // interference mitigation using a sparse sampling approach", EuRAD 2017.
 // Inputs: threshold above 1 as a power ratio. Echoes of one or two equal strong scatterers reach 2
 // times the median, noise of one channel 20 times in one sample of a million: the default. Noise of real samples of one
-// channel is 52.8 times its median as often: 2.64 times the threshold counts there.
+// channel, which stay real when a calibration turns their phase, is 52.8 times its median as often: 2.64 times the threshold
+// counts there.
 #pragma once
 
 #include <cstddef>
@@ -23,6 +24,7 @@
 
 #include "signal/cube.h"
 #include "signal/waveform/array.h"
+#include "signal/waveform/waveform.h"
 
 namespace fanbeam::signal {
 
@@ -34,6 +36,8 @@ std::optional<Mitigation> mitigation_of(std::string_view name);
 inline constexpr double kCrossedOverMedian = 20.0;
 
 // Returns how many samples of all channels were mended.
-std::size_t mitigate(Mitigation mitigation, double threshold, const Array& array, FloatCube& cube);
+// `waveform` tells whether samples were taken as real ones.
+std::size_t mitigate(Mitigation mitigation, double threshold, const Waveform& waveform,
+                     const Array& array, FloatCube& cube);
 
 }  // namespace fanbeam::signal
