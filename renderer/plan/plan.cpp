@@ -32,14 +32,17 @@ bool shows_obstacles(const SceneFacts& facts) {
 bool tips_over(const SceneFacts& facts) {
   if (facts.signal) return false;
   return shows_obstacles(facts) || facts.read.obstacles || facts.read.detections ||
-         (facts.sample && facts.has_point_targets);
+         facts.read.signals || (facts.sample && facts.has_point_targets);
 }
 
 // Watts hold the noise, and it crosses thresholds, where no display shows it.
-bool reads_noise(const SceneFacts& facts) { return facts.read.watts() || facts.read.detections; }
+bool reads_noise(const SceneFacts& facts) {
+  return facts.read.watts() || facts.read.detections || facts.read.signals;
+}
 
 std::string noise_readers_text(const Readings& read) {
   if (read.detections) return "asked for by the product detections, as it crosses thresholds";
+  if (read.signals) return "asked for by signals, whose detections cross thresholds with it";
   if (read.power) return "asked for by the product power, whose watts hold it";
   return "asked for by the product labels, whose signal to clutter counts it";
 }
@@ -80,6 +83,7 @@ std::string cause_text(const Open& open, const SceneFacts& facts) {
   if (facts.read.obstacles)
     return text + ", which can raise or hide a whole one of the product obstacles";
   if (facts.read.detections) return text + ", which can make or hide one of the product detections";
+  if (facts.read.signals) return text + ", which can make or hide a detection in the signals";
   return text + ", which can tip a pixel where a target and the ground cancel";
 }
 

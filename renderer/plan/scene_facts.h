@@ -17,6 +17,7 @@ struct Readings {
   bool labels = false;      // signal to clutter, noise included
   bool detections = false;  // what crosses a threshold, noise included
   bool obstacles = false;   // raised by thresholds, whatever the C-scope's mode
+  bool signals = false;     // samples, whose maps hold noise and whose detections cross thresholds
 };
 
 // The sensor, the weather and the heights that rays pass through (above the scene's origin).

@@ -74,6 +74,9 @@ TEST_CASE("Detections, power and labels ask for noise that no display shows", "[
   facts.read = {.detections = true};
   CHECK(noise("").on);
   CHECK(noise("").reason.find("product detections") != std::string::npos);
+  facts.read = {.signals = true};
+  CHECK(noise("").on);
+  CHECK(noise("").reason.find("by signals") != std::string::npos);
   facts.read = {.labels = true};
   CHECK(noise("").on);
   CHECK(noise("").reason.find("product labels") != std::string::npos);
@@ -81,7 +84,8 @@ TEST_CASE("Detections, power and labels ask for noise that no display shows", "[
   CHECK(noise("").reason.find("asked for") == std::string::npos);
 }
 
-TEST_CASE("What thresholds decide about counts in full for detections and obstacles", "[plan]") {
+TEST_CASE("What thresholds decide about counts in full for detections, obstacles and signals",
+          "[plan]") {
   renderer::SceneFacts facts = facts_with(Display::CScopeMode::true_elevation);
   const auto gas = [&] {
     for (const core::EffectDecision& decision : renderer::plan(facts, 0.5, {}).decisions)
@@ -95,6 +99,10 @@ TEST_CASE("What thresholds decide about counts in full for detections and obstac
   facts.read = {.obstacles = true};
   CHECK(gas().bound_grey == 255.0);
   CHECK(gas().reason.find("product obstacles") != std::string::npos);
+  // Signals have detections whatever products are asked for.
+  facts.read = {.signals = true};
+  CHECK(gas().bound_grey == 255.0);
+  CHECK(gas().reason.find("detection in the signals") != std::string::npos);
 }
 
 // Rain 25 dB above the noise was missing from watts, as the display showed all of it black.

@@ -58,6 +58,10 @@ TEST_CASE("Signals have every effect with any influence, whatever a display hide
   CHECK_FALSE(pictures->plan.runs(core::EffectId::gas));
   const auto signals = signal_scene(folder, session::signal_setup(coarse));
   CHECK(signals->plan.runs(core::EffectId::gas));
+  for (const core::EffectDecision& decision : signals->plan.decisions) {
+    INFO(decision.reason);
+    CHECK(decision.reason.find("product") == std::string::npos);  // none was asked for
+  }
   CHECK(session::planned_for_signals(signals) == signals);
   const auto planned = session::planned_for_signals(pictures);
   CHECK(planned->plan.runs(core::EffectId::gas));
