@@ -3,6 +3,7 @@
 
 usage: browser_test.py FANBEAM [FOLDER]   FOLDER keeps screenshots
 """
+import itertools
 import json
 import os
 import re
@@ -429,18 +430,20 @@ class Page(unittest.TestCase):
             " fill.call(this, text, x, y); };")
         for nearest_m, farthest_m, view_deg, step_m in ((1, 151, 150, 20), (200, 3695.08, 41, 500), (0, 20000, 41, 2000)):
             written = self.page.execute_script(
-                "written = {}; state.sensor = { ...state.sensor, range_minimum_m: arguments[0], field_of_view_deg: arguments[2],"
+                "written = {}; state.frame.head.cscope_top_deg = 10;"
+                " state.sensor = { ...state.sensor, range_minimum_m: arguments[0], field_of_view_deg: arguments[2], cscope_span_deg: 20,"
                 " range_cell_m: (arguments[1] - arguments[0]) / state.sensor.range_cells };"
-                " draw('bscope'); draw_plan(); return written;", nearest_m, farthest_m, view_deg)
+                " draw('bscope'); draw('cscope'); draw_plan(); return written;", nearest_m, farthest_m, view_deg)
             ranges = [r * step_m for r in range(-(-nearest_m // step_m), int(farthest_m / step_m + 1)) if r * step_m < farthest_m]
-            told = written["bscope"]
-            self.assertEqual([text for text, *_ in told if text.endswith(" m")], [f"{r} m" for r in ranges])
+            # At the lower edge, where azimuths are told, a line has no word.
+            self.assertEqual([text for text, *_ in written["bscope"] if text.endswith(" m")], [f"{r} m" for r in ranges if r > nearest_m])
+            self.assertEqual([text for text, *_ in written["cscope"] if text.endswith(".0°")], ["\u22125.0°", "0.0°", "5.0°"])
             rings = [text for text, *_ in written["planview"] if re.fullmatch(r"[\d.]+ k?m", text)]
             self.assertEqual(rings, [f"{r} m" if r < 1000 else f"{r / 1000:g} km" for r in ranges])
-            angles = [(x, wide) for text, x, _, wide in told if text.endswith("°")]
-            self.assertGreaterEqual(len(angles), 3)
-            for (x, wide), (after, _) in zip(angles, angles[1:]):
-                self.assertLess(x + wide, after)
+            for scope in ("bscope", "cscope"):
+                self.assertGreaterEqual(len([text for text, *_ in written[scope] if re.fullmatch(r"\u2212?\d+°", text)]), 3)
+                for (one, x, y, wide), (other, left, below, width) in itertools.combinations(written[scope], 2):
+                    self.assertTrue(x + wide < left or left + width < x or abs(y - below) > 12, f"{one} covers {other}")
             self.keep(f"live-marks-{farthest_m:g}")
 
     def test_small_screens_and_large_letters_need_no_sideways_scrolling(self):
