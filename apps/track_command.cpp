@@ -132,13 +132,14 @@ int track(const TrackOptions& options, const CommonOptions& common) {
     session::check_waveform(*one.scenario, options, problems);
   problems.throw_if_errors();
   session::ScenarioRecord record(options);
+  session::TrackPlots plots(folder);
   for (const session::StudyScenario& one : scenarios) {
     const session::ScenarioTracks tracks = track_one(options, one, common.quiet);
-    write_scenario_tracks(*one.scenario, tracks, options.plots, folder / one.scenario->id);
+    write_scenario_tracks(*one.scenario, tracks, options.plots, folder, plots);
     if (!common.quiet) print(*one.scenario, tracks);
     record.add(one, tracks);
   }
-  record.write(folder);
+  record.write(folder, plots);
   if (!common.quiet) print_record(folder / "run.json");
   return kExitDone;
 }

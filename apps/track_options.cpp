@@ -135,7 +135,8 @@ CLI::App& add_track_command(CLI::App& program, TrackOptions& options) {
   command.footer(
       "Writes tracks.csv (with the covariance of x, y, vx, vy and the normalised error squared "
       "against the truth) and measurements.csv for each scenario, run.json with the metrics and "
-      "timing.json; with --study instead study.md and its plots. Prints where each track ended, "
+      "timing.json; plots that an earlier run.json there lists are removed. With --study it writes "
+      "study.md and its plots instead. Prints where each track ended, "
       "where its target is, and how likely the track is still on the target it began with. "
       "Of a scene, its point targets are the truth: run.json and the summary tell how often each "
       "was "

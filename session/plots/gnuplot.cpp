@@ -18,8 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 2> kPlotEndings = {".svg", ".png"};
-
 // Colours that stay apart in print and for most colour-blind eyes (Okabe and Ito 2008).
 constexpr std::array<const char*, 8> kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                  "#56b4e9", "#e69f00", "#000000", "#8c6d1f"};
@@ -146,11 +144,6 @@ void write_plot(const Plot& plot, const fs::path& file) {
 
 void write_plots(const Plot& plot, const fs::path& name) {
   for (const char* ending : kPlotEndings) write_plot(plot, name.string() + ending);
-}
-
-void remove_plots(const fs::path& name) {
-  std::error_code ignored;
-  for (const char* ending : kPlotEndings) fs::remove(name.string() + ending, ignored);
 }
 
 void write_plot(const std::function<std::string(const fs::path&)>& script, const fs::path& file) {

@@ -1,6 +1,7 @@
 // Line plots through the gnuplot program, for commands that show curves.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -55,10 +56,9 @@ std::string gnuplot_script(const Plot& plot, const std::filesystem::path& output
 // names the package) or fails.
 void write_plot(const Plot& plot, const std::filesystem::path& file);
 
-// Draws it as `name`.svg and `name`.png.
+// Draws it with each ending.
+inline constexpr std::array<const char*, 2> kPlotEndings = {".svg", ".png"};
 void write_plots(const Plot& plot, const std::filesystem::path& name);
-// Those that are there of an earlier run.
-void remove_plots(const std::filesystem::path& name);
 
 // The same for what `script` tells gnuplot to draw into the path that it is given.
 void write_plot(const std::function<std::string(const std::filesystem::path&)>& script,

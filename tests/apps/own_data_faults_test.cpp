@@ -12,6 +12,7 @@
 #include "session/signal/radar.h"
 #include "session/signal/radar_file.h"
 #include "tests/apps/program.h"
+#include "tests/needed_program.h"
 
 using namespace fanbeam;
 using tests::track;
@@ -75,13 +76,47 @@ TEST_CASE("Tables of tracks have the times of their input, Unix time too", "[tra
 TEST_CASE("Plots of an earlier run do not stay beside other tables", "[track]") {
   const tests::TemporaryFolder folder;
   const fs::path csv = folder.write("car.csv", kTableHead + car(0, 10, 0.0));
-  REQUIRE(track(csv, folder.path() / "out").exit_code == 0);
+  const fs::path out = folder.path() / "out";
+  REQUIRE(track(csv, out).exit_code == 0);
+  nlohmann::json record = tests::json_of(out / "run.json");
+  CHECK(record["plots"].empty());
+  record["plots"] =
+      nlohmann::json::array({"ranges.svg", "ranges.png", "plan.png", "notes.png", "../car.csv"});
+  folder.write("out/run.json", record.dump());
   for (const char* name : {"ranges.svg", "ranges.png", "plan.png", "notes.png"})
     folder.write(std::string("out/") + name, "of another run");
-  REQUIRE(track(csv, folder.path() / "out").exit_code == 0);
+  REQUIRE(track(csv, out).exit_code == 0);
   for (const char* name : {"ranges.svg", "ranges.png", "plan.png"})
-    CHECK_FALSE(fs::exists(folder.path() / "out" / name));
-  CHECK(fs::exists(folder.path() / "out/notes.png"));
+    CHECK_FALSE(fs::exists(out / name));
+  CHECK(fs::exists(out / "notes.png"));
+  CHECK(fs::exists(csv));
+}
+
+// They went by their names alone, in a folder that no run had written to.
+TEST_CASE("Pictures of somebody's that are called like plots stay", "[track]") {
+  const tests::TemporaryFolder folder;
+  const fs::path csv = folder.write("car.csv", kTableHead + car(0, 10, 0.0));
+  for (const char* name : {"plan.png", "ranges.svg"}) folder.write(name, "mine");
+  // In the first run there is no record, in the second one that lists none.
+  for (int run = 0; run < 2; ++run) {
+    REQUIRE(track(csv, folder.path()).exit_code == 0);
+    for (const char* name : {"plan.png", "ranges.svg"})
+      CHECK(tests::bytes_of(folder.path() / name) == "mine");
+  }
+}
+
+TEST_CASE("Plots that a run drew are listed in its record, and go with the next", "[track]") {
+  if (!tests::needed_program("gnuplot")) return;
+  const tests::TemporaryFolder folder;
+  const fs::path csv = folder.write("car.csv", kTableHead + car(0, 10, 0.0));
+  const fs::path out = folder.path() / "out";
+  const std::vector<std::string> plots = {"plan.png", "plan.svg", "ranges.png", "ranges.svg"};
+  REQUIRE(track(csv, out, "--plots").exit_code == 0);
+  CHECK(tests::json_of(out / "run.json")["plots"] == nlohmann::json(plots));
+  for (const std::string& name : plots) CHECK(fs::exists(out / name));
+  REQUIRE(track(csv, out).exit_code == 0);
+  CHECK(tests::json_of(out / "run.json")["plots"].empty());
+  for (const std::string& name : plots) CHECK_FALSE(fs::exists(out / name));
 }
 
 TEST_CASE("JSON frames of one time are one frame, and all that go back are told", "[track]") {

@@ -90,6 +90,28 @@ TEST_CASE("track writes tables and metrics, the same bytes again", "[track]") {
             .count("X1/tracks.csv") == 1);
 }
 
+TEST_CASE("Plots of a scenario go with the next run, and no picture that the record does not list",
+          "[track]") {
+  const tests::TemporaryFolder folder;
+  const fs::path file = folder.write("two.json", kScenario), out = folder.path() / "out";
+  const auto run = [&] { REQUIRE(tests::track(file, out).exit_code == 0); };
+  const std::vector<std::string> pictures = {"errors.png", "ranges.svg"};
+  for (const char* scenario : {"X1", "X2"}) fs::create_directories(out / scenario);
+  for (const std::string& name : pictures) folder.write("out/X1/" + name, "mine");
+  run();
+  run();
+  for (const std::string& name : pictures) CHECK(tests::bytes_of(out / "X1" / name) == "mine");
+  nlohmann::json record = tests::json_of(out / "run.json");
+  record["plots"] = nlohmann::json::array({"X1/errors.png", "X2/errors.png"});
+  folder.write("out/run.json", record.dump());
+  folder.write("out/X2/errors.png", "of a scenario that is not tracked again");
+  run();
+  CHECK_FALSE(fs::exists(out / "X1/errors.png"));
+  CHECK(fs::exists(out / "X1/ranges.svg"));
+  CHECK(fs::exists(out / "X2/errors.png"));
+  CHECK(tests::json_of(out / "run.json")["plots"] == nlohmann::json::array({"X2/errors.png"}));
+}
+
 TEST_CASE("A scenario without targets has no figures of them", "[track]") {
   const tests::TemporaryFolder folder;
   std::string empty = kScenario;

@@ -10,6 +10,7 @@
 #include "core/constants.h"
 #include "core/files.h"
 #include "core/units.h"
+#include "session/signal/tracks/track_plots.h"
 #include "session/signal/tracks/track_table.h"
 #include "session/version.h"
 #include "tracking/tracker/track_geometry.h"
@@ -73,7 +74,7 @@ void add(const MeasuredFrame& frame, const tracking::Tracker& tracker, OwnTracks
 }
 
 Json json_of(const TrackSettings& settings, const MeasuredSource& source, const BodyErrors& errors,
-             const OwnTracks& tracks) {
+             const OwnTracks& tracks, const TrackPlots& plots) {
   Json targets = Json::array();
   for (const auto& [name, one] : tracks.targets)
     targets.push_back({{"name", name}, {"seen", one.seen}, {"followed", one.followed}});
@@ -107,6 +108,7 @@ Json json_of(const TrackSettings& settings, const MeasuredSource& source, const 
                         {"range_rate_mps", resolution.range_rate_mps},
                         {"azimuth_rad", resolution.azimuth_rad}};
   json["targets"] = targets;
+  json["plots"] = plots.files();
   return json;
 }
 
@@ -143,19 +145,24 @@ OwnTracks track_source(MeasuredSource& source, const TrackSettings& settings,
 }
 
 void write_own_tracks(const OwnTracks& tracks, const MeasuredSource& source,
-                      const TrackSettings& settings, const BodyErrors& errors, bool plots,
+                      const TrackSettings& settings, const BodyErrors& errors, bool draw,
                       const fs::path& folder) {
+  TrackPlots plots(folder);
+  for (const char* name : {"ranges", "plan"}) plots.remove_earlier(name);
+  const auto write_record = [&] {
+    core::write_file_atomically(folder / "run.json",
+                                json_of(settings, source, errors, tracks, plots).dump(2) + "\n");
+  };
   core::write_file_atomically(folder / "tracks.csv", tracks.tracks);
   core::write_file_atomically(folder / "measurements.csv", tracks.measurements);
-  core::write_file_atomically(folder / "run.json",
-                              json_of(settings, source, errors, tracks).dump(2) + "\n");
+  write_record();
   const Json timing = {{"measuring_ms_per_scan", 1e3 * tracks.measuring_s / tracks.frames},
                        {"tracking_ms_per_scan", 1e3 * tracks.tracking_s / tracks.frames}};
   core::write_file_atomically(folder / "timing.json", timing.dump(2) + "\n");
-  for (const char* name : {"ranges", "plan"}) remove_plots(folder / name);
-  if (!plots || tracks.measured == 0) return;
-  write_plots(tracks.history.ranges(source.name), folder / "ranges");
-  write_plots(tracks.history.plan(source.name), folder / "plan");
+  if (!draw || tracks.measured == 0) return;
+  plots.draw(tracks.history.ranges(source.name), "ranges");
+  plots.draw(tracks.history.plan(source.name), "plan");
+  write_record();  // lists no plot before it is there
 }
 
 }  // namespace fanbeam::session

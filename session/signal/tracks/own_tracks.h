@@ -40,9 +40,10 @@ struct OwnTracks {
 OwnTracks track_source(MeasuredSource& source, const TrackSettings& settings,
                        const std::function<void(int done)>& progress);
 
-// tracks.csv, measurements.csv, run.json, timing.json and with `plots` ranges and plan as SVG and PNG.
+// tracks.csv, measurements.csv, run.json, timing.json and, to `draw`, ranges and plan as SVG and PNG. Those that an
+// earlier run.json there lists go.
 void write_own_tracks(const OwnTracks& tracks, const MeasuredSource& source,
-                      const TrackSettings& settings, const BodyErrors& errors, bool plots,
+                      const TrackSettings& settings, const BodyErrors& errors, bool draw,
                       const std::filesystem::path& folder);
 
 }  // namespace fanbeam::session

@@ -42,7 +42,7 @@ void ScenarioRecord::add(const StudyScenario& tracked, const ScenarioTracks& tra
       {tracked.scenario->id, 1e3 * tracks.measuring_s / frames, 1e3 * tracks.tracking_s / frames});
 }
 
-void ScenarioRecord::write(const std::filesystem::path& folder) const {
+void ScenarioRecord::write(const std::filesystem::path& folder, const TrackPlots& plots) const {
   using Json = nlohmann::ordered_json;
   Json json = {{"version", version_text()},
                {"commit", commit_text()},
@@ -56,6 +56,7 @@ void ScenarioRecord::write(const std::filesystem::path& folder) const {
                {"false_measurements", settings_.false_per_frame},
                {"scenarios", Json::array()}};
   for (const std::string& scenario : scenarios_) json["scenarios"].push_back(Json::parse(scenario));
+  json["plots"] = plots.files();
   Json timing = Json::array();
   for (const Timing& one : timing_)
     timing.push_back({{"id", one.id},

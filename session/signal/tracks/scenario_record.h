@@ -22,7 +22,7 @@ class ScenarioRecord {
   explicit ScenarioRecord(const TrackSettings& settings) : settings_(settings) {}
   void add(const StudyScenario& tracked, const ScenarioTracks& tracks);
   // run.json and timing.json.
-  void write(const std::filesystem::path& folder) const;
+  void write(const std::filesystem::path& folder, const TrackPlots& plots) const;
 
  private:
   struct Timing {

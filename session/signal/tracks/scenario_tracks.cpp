@@ -177,13 +177,14 @@ std::string scenario_tracks_json(const core::HighwayScenario& scenario,
 }
 
 void write_scenario_tracks(const core::HighwayScenario& scenario, const ScenarioTracks& tracks,
-                           bool plots, const fs::path& folder) {
-  core::write_file_atomically(folder / "tracks.csv", tracks.tracks);
-  core::write_file_atomically(folder / "measurements.csv", tracks.measurements);
-  for (const char* name : {"ranges", "errors"}) remove_plots(folder / name);
-  if (!plots) return;
-  write_plots(tracks.history.ranges(scenario), folder / "ranges");
-  write_plots(tracks.history.errors(scenario), folder / "errors");
+                           bool draw, const fs::path& folder, TrackPlots& plots) {
+  const std::string ranges = scenario.id + "/ranges", errors = scenario.id + "/errors";
+  for (const std::string& name : {ranges, errors}) plots.remove_earlier(name);
+  core::write_file_atomically(folder / scenario.id / "tracks.csv", tracks.tracks);
+  core::write_file_atomically(folder / scenario.id / "measurements.csv", tracks.measurements);
+  if (!draw) return;
+  plots.draw(tracks.history.ranges(scenario), ranges);
+  plots.draw(tracks.history.errors(scenario), errors);
 }
 
 }  // namespace fanbeam::session

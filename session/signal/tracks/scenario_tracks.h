@@ -10,6 +10,7 @@
 #include "core/errors.h"
 #include "core/highway.h"
 #include "session/signal/tracks/scenario_history.h"
+#include "session/signal/tracks/track_plots.h"
 #include "session/signal/tracks/track_settings.h"
 #include "tracking/simulation/scenario_run.h"
 
@@ -45,8 +46,9 @@ ScenarioTracks track_scenario(const core::HighwayScenario& scenario,
 // What run.json says of a scenario: metrics, crossings, where each track ended.
 std::string scenario_tracks_json(const core::HighwayScenario& scenario,
                                  const core::HighwayRadar& radar, const ScenarioTracks& tracks);
-// tracks.csv, measurements.csv and with `plots` ranges and errors as SVG and PNG.
+// In the folder of its id: tracks.csv, measurements.csv and, to `draw`, ranges and errors as SVG and PNG. Those that
+// `plots` knows of an earlier run go.
 void write_scenario_tracks(const core::HighwayScenario& scenario, const ScenarioTracks& tracks,
-                           bool plots, const std::filesystem::path& folder);
+                           bool draw, const std::filesystem::path& folder, TrackPlots& plots);
 
 }  // namespace fanbeam::session
