@@ -215,9 +215,12 @@ std::string CityReader::building_of(const std::string& id, int part_level) {
                                                                          : "an object of the file");
         return id;
       }
-      if (!is_one_of(kBuilt, parent.member("type").text().value_or(""))) continue;
-      above = name;
-      break;
+      const std::string type = parent.member("type").text().value_or("");
+      if (type == "CityObjectGroup") continue;
+      // A room, a storey or a type of an extension leads to the building as well.
+      const bool built = is_one_of(kBuilt, type);
+      if (built || above.empty()) above = name;
+      if (built) break;
     }
     if (above.empty()) return top;
     int& finest = finest_part_[above];

@@ -154,6 +154,31 @@ TEST_CASE("buildings of a group stay buildings of their own, and parts find thei
   CHECK(found.has("W-SKIPPED", "1 CityObjectGroup"));
 }
 
+// CityJSON 2.0.2, Building: installations may have a room as parent, parts of IFC files a storey. What hung there was a
+// building of its own, put on the ground.
+TEST_CASE(
+    "what hangs under a room, a storey or an extension's building belongs to the same building",
+    "[cityjson]") {
+  for (const char* between : {"BuildingRoom", "BuildingStorey", "BuildingUnit", "+Wing"}) {
+    INFO(between);
+    json city = tests::house();
+    json& objects = city["CityObjects"];
+    objects["balcony"] = objects["house"];
+    objects["balcony"]["type"] = "BuildingInstallation";
+    objects["balcony"]["parents"] = {"between"};
+    objects["between"] = {{"type", between}, {"parents", {"house"}}};
+    const Read found = read(city);
+    REQUIRE(found.city.buildings.size() == 1);
+    CHECK(found.city.buildings[0].id == "house");
+    CHECK(areas_m2(found.city).at("RoofSurface") == Approx(240.0).epsilon(2e-3));
+    // Of several parents the one that is built counts.
+    objects["between"].erase("parents");
+    objects["balcony"]["parents"] = {"between", "house"};
+    REQUIRE(read(city).city.buildings.size() == 1);
+    CHECK(read(city).city.buildings[0].id == "house");
+  }
+}
+
 // CityJSON 2.0.2, Geometry Objects: several of one lod stand for a MultiGeometry. The first alone was read.
 TEST_CASE("all geometries of the highest level of detail are read", "[cityjson]") {
   json city = tests::house();
