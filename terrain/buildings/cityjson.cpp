@@ -61,18 +61,32 @@ class CityReader {
   std::optional<int> epsg();
   void read_vertices(int epsg);
   void read_objects();
-  // An object, the building that it belongs to, and the geometries of its highest level of detail that is
-  // read: several of one level are one shape (CityJSON has no MultiGeometry).
-  struct Piece {
-    std::string id, building;
-    double lod = 0.0;
-    std::vector<JsonNode> geometries;
+  struct Shape {
+    JsonNode geometry, values;
+    std::vector<std::string> semantics;  // that the values count
+    // Whether there is a face to read, not grounds and closures alone.
+    bool is_seen() const;
   };
-  // The object at the top of those that this one is a part of, groups aside; its own name after an error.
-  // Those between learn that parts of that level are under them; 0 for none.
-  std::string building_of(const std::string& id, int part_level);
+  // An object, those that it is a part of, from the nearest to the building, and the geometries of its
+  // highest level of detail that is read: several of one level are one shape (CityJSON has no MultiGeometry).
+  struct Piece {
+    std::string id;
+    bool is_part = false;
+    std::vector<std::string> above;
+    double lod = 0.0;
+    std::vector<Shape> shapes;
+    bool is_seen() const;
+  };
+  // What is known of the parts under an object.
+  struct Parts {
+    int finest = 0;  // level of those that are seen; 0 for none
+    bool all_seen = true;
+  };
+  // Groups aside; none after an error.
+  std::vector<std::string> objects_above(const std::string& id);
   Piece best_geometries(const JsonNode& object) const;
-  void read_geometry(const JsonNode& geometry, CityBuilding& building);
+  void find_parts(const std::vector<Piece>& pieces);
+  void read_shape(const Shape& shape, CityBuilding& building);
   void read_faces(const JsonNode& boundary, const JsonNode& values, int levels,
                   const std::vector<std::string>& semantics, CityBuilding& building);
   void read_face(const JsonNode& face, const std::string& semantic, CityBuilding& building);
@@ -94,7 +108,7 @@ class CityReader {
   // Which building met a vertex last, and the place it has there.
   std::vector<std::pair<const CityBuilding*, std::uint32_t>> met_;
   std::map<std::string, CityBuilding> buildings_;
-  std::map<std::string, int> finest_part_;  // level of the parts under an object
+  std::map<std::string, Parts> parts_;  // by the object that they are under
   std::vector<std::string> surfaces_;
   std::map<std::string, std::size_t> other_types_;
   std::size_t without_geometry_ = 0, coarser_ = 0, degenerate_ = 0, not_triangulated_ = 0;
@@ -180,32 +194,45 @@ void CityReader::read_objects() {
       continue;
     }
     Piece piece = best_geometries(object);
-    if (!piece.geometries.empty()) {
-      piece.id = id;
-      piece.building = building_of(id, type.ends_with("Part") ? static_cast<int>(piece.lod) : 0);
-      pieces.push_back(std::move(piece));
-    } else if (object.member("children").elements() == 0) {
-      ++without_geometry_;
-    }
+    piece.id = id;
+    piece.is_part = type.ends_with("Part");
+    if (piece.shapes.empty() && object.member("children").elements() == 0) ++without_geometry_;
+    if (piece.shapes.empty() && !piece.is_part) continue;
+    piece.above = objects_above(id);
+    pieces.push_back(std::move(piece));
   }
+  find_parts(pieces);
   for (const Piece& piece : pieces) {
     if (errors_.is_full()) return;
-    const auto parts = finest_part_.find(piece.id);
-    if (parts != finest_part_.end() && parts->second > static_cast<int>(piece.lod)) {
+    if (piece.shapes.empty()) continue;
+    const Parts& parts = parts_[piece.id];
+    if (parts.all_seen && parts.finest > static_cast<int>(piece.lod)) {
       ++coarser_;  // would hide them
       continue;
     }
-    CityBuilding& building = buildings_[piece.building];
-    building.id = core::printable_text(piece.building.substr(0, 80));
-    for (const JsonNode& geometry : piece.geometries) read_geometry(geometry, building);
+    const std::string& name = piece.above.empty() ? piece.id : piece.above.back();
+    CityBuilding& building = buildings_[name];
+    building.id = core::printable_text(name.substr(0, 80));
+    for (const Shape& shape : piece.shapes) read_shape(shape, building);
   }
 }
 
-std::string CityReader::building_of(const std::string& id, int part_level) {
+// A block is all that there is of a part without a shape, unless that one's own parts have it.
+void CityReader::find_parts(const std::vector<Piece>& pieces) {
+  for (const Piece& piece : pieces)
+    if (piece.is_part && piece.is_seen())
+      for (const std::string& name : piece.above)
+        parts_[name].finest = std::max(parts_[name].finest, static_cast<int>(piece.lod));
+  for (const Piece& piece : pieces)
+    if (piece.is_part && !piece.is_seen() && parts_[piece.id].finest == 0)
+      for (const std::string& name : piece.above) parts_[name].all_seen = false;
+}
+
+std::vector<std::string> CityReader::objects_above(const std::string& id) {
   const JsonNode objects = root_.member("CityObjects");
-  std::string top = id;
+  std::vector<std::string> found;
   for (int step = 0;; ++step) {
-    const JsonNode parents = objects.member(top).member("parents");
+    const JsonNode parents = objects.member(found.empty() ? id : found.back()).member("parents");
     std::string above;
     for (std::size_t i = 0; i < std::min(parents.elements(), kMostParents); ++i) {
       const std::string name = parents.element(i).text().value_or("");
@@ -213,7 +240,7 @@ std::string CityReader::building_of(const std::string& id, int part_level) {
       if (name.empty() || step == kMostAncestors || !parent.present()) {
         parents.element(i).error(ErrorClass::ref, step == kMostAncestors ? "no ring of parents"
                                                                          : "an object of the file");
-        return id;
+        return {};
       }
       const std::string type = parent.member("type").text().value_or("");
       if (type == "CityObjectGroup") continue;
@@ -222,10 +249,8 @@ std::string CityReader::building_of(const std::string& id, int part_level) {
       if (built || above.empty()) above = name;
       if (built) break;
     }
-    if (above.empty()) return top;
-    int& finest = finest_part_[above];
-    finest = std::max(finest, part_level);
-    top = above;
+    if (above.empty()) return found;
+    found.push_back(above);
   }
 }
 
@@ -242,23 +267,35 @@ CityReader::Piece CityReader::best_geometries(const JsonNode& object) const {
     if (level.error != core::NumberError::none) {
       lod.error(ErrorClass::parse, "\"1\" to \"3.3\"");
     } else if (level.value >= 1.0 && level.value < 4.0 && level.value >= best.lod) {
-      if (level.value > best.lod) best.geometries.clear();
+      if (level.value > best.lod) best.shapes.clear();
       best.lod = level.value;
-      best.geometries.push_back(geometry);
+      best.shapes.push_back({geometry, geometry.member("semantics").member("values"), {}});
     }
+  }
+  for (Shape& shape : best.shapes) {
+    const JsonNode surfaces = shape.geometry.member("semantics").member("surfaces");
+    const std::size_t kinds = surfaces.size(kMostCityValues);
+    for (std::size_t k = 0; k < kinds; ++k)
+      shape.semantics.push_back(surfaces.element(k).required("type").text().value_or(""));
   }
   return best;
 }
 
-void CityReader::read_geometry(const JsonNode& geometry, CityBuilding& building) {
+bool CityReader::Shape::is_seen() const {
+  return semantics.empty() || !values.present() ||
+         std::any_of(semantics.begin(), semantics.end(),
+                     [](const std::string& name) { return !is_one_of(kUnseen, name); });
+}
+
+bool CityReader::Piece::is_seen() const {
+  return std::any_of(shapes.begin(), shapes.end(),
+                     [](const Shape& shape) { return shape.is_seen(); });
+}
+
+void CityReader::read_shape(const Shape& shape, CityBuilding& building) {
+  const JsonNode& geometry = shape.geometry;
   const int levels = levels_around_faces(geometry.member("type").text().value_or("")).value_or(0);
-  const JsonNode semantics = geometry.member("semantics");
-  const JsonNode surfaces = semantics.member("surfaces");
-  std::vector<std::string> names;
-  const std::size_t kinds = surfaces.size(kMostCityValues);
-  for (std::size_t i = 0; i < kinds; ++i)
-    names.push_back(surfaces.element(i).required("type").text().value_or(""));
-  read_faces(geometry.required("boundaries"), semantics.member("values"), levels, names, building);
+  read_faces(geometry.required("boundaries"), shape.values, levels, shape.semantics, building);
 }
 
 void CityReader::read_faces(const JsonNode& boundary, const JsonNode& values, int levels,

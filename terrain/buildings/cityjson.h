@@ -4,9 +4,10 @@
 // Read are Building, BuildingPart, BuildingInstallation, Bridge, BridgePart and their like; of each the
 // geometries of the highest LoD from 1 to 3: Solid (its outer shell), MultiSurface, CompositeSurface,
 // MultiSolid, CompositeSolid. Parts belong to the building that they hang under, also by way of a storey, a
-// unit, a room or an extension's object, not to a CityObjectGroup; where they have a higher LoD (of 1, 2, 3), what the building has itself is left out. Left out, too:
-// grounds and closures, rooms inside, textures, materials, templates (GeometryInstance), other objects of
-// the city (roads, land, water, plants, tunnels, groups, the units of a building, whose walls its own hold),
+// unit, a room or an extension's object, not to a CityObjectGroup; where BuildingParts have a higher
+// LoD (of 1, 2, 3) and none of them lacks a surface that is seen, what the building has itself is left out. Left
+// out, too: grounds and closures, rooms inside, textures, materials, templates (GeometryInstance), other objects
+// of the city (roads, land, water, plants, tunnels, groups, the units of a building, whose walls its own hold),
 // which are counted in a warning. A surface without semantics is a roof where it looks up, a wall where it
 // stands within 30 deg of the vertical, a ground where it looks down.
 //

@@ -219,6 +219,37 @@ TEST_CASE("a building's block does not hide its finer parts, and coarser parts s
   }
 }
 
+// Where the reconstruction of a part had failed, three quarters of the building were missing.
+TEST_CASE("a building's block stays where one of its parts has nothing in its place",
+          "[cityjson]") {
+  json city = tests::house();
+  json& objects = city["CityObjects"];
+  objects["part"] = objects["house"];
+  objects["part"]["type"] = "BuildingPart";
+  objects["part"]["parents"] = {"house"};
+  objects["house"]["geometry"][0]["lod"] = "1.2";
+  objects["footprint"] = objects["part"];
+  json& footprint = objects["footprint"]["geometry"][0];
+  footprint =
+      json::parse(R"({"type": "MultiSurface", "lod": "0", "boundaries": [[[0, 3, 2, 1]]]})");
+  const Read without = read(city);
+  REQUIRE(without.city.buildings.size() == 1);
+  CHECK(areas_m2(without.city).at("RoofSurface") == Approx(240.0).epsilon(2e-3));
+  CHECK_FALSE(without.has("W-SKIPPED", "coarser"));
+  CHECK(without.has("W-SKIPPED", "buildings without surfaces of LoD 1 to 3 = 1"));
+  // A ground of a finer level is none that is seen, a part's own part is.
+  footprint["lod"] = "2.2";
+  footprint["semantics"] =
+      json::parse(R"({"surfaces": [{"type": "GroundSurface"}], "values": [0]})");
+  CHECK(areas_m2(read(city).city).at("RoofSurface") == Approx(240.0).epsilon(2e-3));
+  objects["footprint"].erase("geometry");
+  objects["part"]["parents"] = {"footprint"};
+  const Read within = read(city);
+  REQUIRE(within.city.buildings.size() == 1);
+  CHECK(areas_m2(within.city).at("RoofSurface") == Approx(120.0).epsilon(2e-3));
+  CHECK(within.has("W-SKIPPED", "buildings coarser than their parts = 1"));
+}
+
 TEST_CASE("surfaces without semantics are told apart by how they stand", "[cityjson]") {
   json city = tests::house();
   city["CityObjects"]["house"]["geometry"][0].erase("semantics");
