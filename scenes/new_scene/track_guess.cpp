@@ -22,6 +22,9 @@ constexpr double kFitted_m = 5000.0;           // before the threshold
 constexpr double kBelievable_m = 60.0;         // off the threshold crossing height
 constexpr double kLargestByWeather_m = 600.0;  // 70 hPa
 constexpr double kAboveWheels_m = 3.0;         // above the ground: where a flight begins and ends
+// So many low rows, or so long, are a stop on the ground and no wrong heights.
+constexpr std::size_t kStopRows = 3;
+constexpr double kStop_s = 3.0;
 
 // A way to read the numbers of a height column.
 struct Reading {
@@ -253,16 +256,45 @@ class TrackGuesser {
     return sea_level_m(row, reading_) + result_.columns.height_offset_m - ground_m;
   }
 
-  // Cuts off what is on the ground: a frame's antenna must be above it. Between rows in the air a low one is
-  // a wrong height, for whoever reads the whole file to judge; behind the threshold it is the landing, also
-  // where the flight goes around after it.
+  bool is_low(std::size_t row) const {
+    return above_ground_m(row).value_or(kAboveWheels_m) < kAboveWheels_m;
+  }
+
+  // Of a flight that is no approach: the longest piece between its stops on the ground.
+  void keep_longest_piece() {
+    std::vector<ApproachPart> pieces;
+    std::size_t begin = part_.first;
+    for (std::size_t i = part_.first, end = i; i <= part_.last; i = std::max(end, i + 1)) {
+      for (end = i; end <= part_.last && is_low(end);) ++end;
+      const bool stop =
+          end - i >= kStopRows || (end > i && rows_[end - 1].time_s - rows_[i].time_s >= kStop_s);
+      if (!stop) continue;
+      if (begin < i) pieces.push_back({begin, i - 1});
+      begin = end;
+    }
+    if (begin <= part_.last) pieces.push_back({begin, part_.last});
+    if (pieces.empty()) return;
+    part_ = *std::max_element(pieces.begin(), pieces.end(), [&](const auto& a, const auto& b) {
+      return rows_[a.last].time_s - rows_[a.first].time_s <
+             rows_[b.last].time_s - rows_[b.first].time_s;
+    });
+    if (pieces.size() > 1)
+      notes_.push_back({"flight",
+                        "on the ground in between: the longest of " +
+                            std::to_string(pieces.size()) + " pieces in the air is taken",
+                        true});
+  }
+
+  // Cuts off what is on the ground: a frame's antenna must be above it. Between rows in the air one or two low
+  // ones are wrong heights, for whoever reads the whole file to judge; behind the threshold one is the landing,
+  // also where the flight goes around after it.
   bool keep_rows_in_the_air() {
     const auto flies = [&](std::size_t row) {
       return above_ground_m(row).value_or(0.0) >= kAboveWheels_m;
     };
+    if (!is_approach_) keep_longest_piece();
     for (std::size_t i = part_.first; is_approach_ && i < part_.last; ++i)
-      if (rows_[i].before_m < 0.0 && above_ground_m(i).value_or(kAboveWheels_m) < kAboveWheels_m)
-        part_.last = i;
+      if (rows_[i].before_m < 0.0 && is_low(i)) part_.last = i;
     while (part_.first < part_.last && !flies(part_.first)) ++part_.first;
     while (part_.first < part_.last && !flies(part_.last)) --part_.last;
     if (part_.first == part_.last) {

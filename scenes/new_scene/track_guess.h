@@ -38,7 +38,8 @@ struct TrackGuess {
 // straight line through the approach's last 5 km comes nearest to the threshold crossing height.
 // Heights by pressure also get the offset that brings them there.
 //
-// Rows on the ground are left out at both ends; what goes around after a landing ends with that.
+// Rows on the ground are left out at both ends; what goes around after a landing ends with that. Of a flight that
+// is no approach and stands on the ground in between, three rows or 3 s, the longest piece in the air is taken.
 //
 // What is not readable as a flight, with its line: E-IO, E-PARSE for columns that no name tells and
 // for times in an unknown form; E-RANGE for a flight that never comes within the start distance of

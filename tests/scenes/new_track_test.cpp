@@ -287,6 +287,33 @@ TEST_CASE("A flight that does not land here is taken while it is near, if it com
       Contains("E-RANGE flight = comes no nearer than") && Contains("transplant"));
 }
 
+// Nothing was written of them: a frame between the two pieces would have been in the ground.
+TEST_CASE("Of a flight that touches the ground elsewhere the longest piece in the air is taken",
+          "[new-track]") {
+  // From 4 km before the threshold to 4 km behind it, landing the other way: in the air but for `low`.
+  const auto touching = [](const std::function<bool(int)>& low) {
+    std::string text = "t,lat,lon,alt_msl_m\n";
+    for (int t = 0; t <= 100; ++t)
+      text += joined(t, 52.0 + (4000.0 - 80.0 * t) / kMetresOfDegree, 10.0,
+                     low(t) ? 80.0 : 100.0 + 2.0 * std::abs(t - 40)) +
+              "\n";
+    return text;
+  };
+  const Guessed stop = guessed(touching([](int t) { return t >= 38 && t <= 42; }));
+  CHECK(*stop.guess.columns.from_time_s == Approx(43.0));
+  CHECK(*stop.guess.columns.to_time_s == Approx(100.0));
+  CHECK_THAT(stop.notes, Contains("no approach to this runway") &&
+                             Contains("the longest of 2 pieces in the air is taken"));
+  // Before the stop and behind the last one there may be nothing; two low rows are wrong heights.
+  const Guessed twice =
+      guessed(touching([](int t) { return t < 5 || (t > 60 && t < 64) || t > 90; }));
+  CHECK(*twice.guess.columns.from_time_s == Approx(5.0));
+  CHECK(*twice.guess.columns.to_time_s == Approx(60.0));
+  const Guessed wrong = guessed(touching([](int t) { return t == 38 || t == 39; }));
+  CHECK(wrong.guess.path.size() == 101);
+  CHECK_THAT(wrong.notes, !Contains("pieces"));
+}
+
 TEST_CASE("Latitude and longitude exchanged, radians, and tables of another kind", "[new-track]") {
   CHECK_THAT(refused(table("t,lat,lon,alt",
                            [](int t, double a, double b, double h) { return joined(t, b, a, h); })),
