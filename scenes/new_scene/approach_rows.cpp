@@ -47,7 +47,9 @@ std::vector<ApproachPart> find_approaches(const std::vector<ApproachRow>& rows,
     const bool ends = i + 1 == rows.size() && row.before_m > 0.0 && row.before_m < kEndsBefore_m;
     if ((!crosses && !ends) || !row.over_terrain || !is_near_centre_line(row)) continue;
     ApproachPart part{first_of(rows, i, start_distance_m), i};
-    if (rows[part.first].before_m < kShortestApproach_m) continue;
+    const double from_m = rows[part.first].before_m;
+    const bool goes_away = from_m <= row.before_m;
+    if (goes_away || from_m < kShortestApproach_m) continue;
     while (part.last + 1 < rows.size()) {
       const ApproachRow& next = rows[part.last + 1];
       if (!next.over_terrain || !is_near_centre_line(next) || !follows(rows[part.last], next) ||

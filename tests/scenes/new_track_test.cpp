@@ -287,6 +287,22 @@ TEST_CASE("A flight that does not land here is taken while it is near, if it com
       Contains("E-RANGE flight = comes no nearer than") && Contains("transplant"));
 }
 
+// The last row alone was an approach, "never 3 m above the ground in two rows".
+TEST_CASE("A flight away from the runway that ends before the threshold is no approach",
+          "[new-track]") {
+  // South to 2.7 km before the threshold, 300 m above the ground; faster and slower than positions wander.
+  for (const double speed_mps : {70.0, 20.0}) {
+    INFO(speed_mps);
+    std::string text = "t,lat,lon,alt_msl_m\n";
+    for (int t = 0; t <= 80; ++t)
+      text +=
+          joined(t, 52.0 - (2700.0 - speed_mps * (80 - t)) / kMetresOfDegree, 10.0, 380.0) + "\n";
+    const Guessed away = guessed(text);
+    CHECK_THAT(away.notes, Contains("no approach to this runway"));
+    CHECK(away.guess.path.size() == 81);
+  }
+}
+
 // Nothing was written of them: a frame between the two pieces would have been in the ground.
 TEST_CASE("Of a flight that touches the ground elsewhere the longest piece in the air is taken",
           "[new-track]") {
