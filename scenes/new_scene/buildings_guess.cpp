@@ -40,6 +40,7 @@ std::optional<std::size_t> features_without(const std::filesystem::path& file,
                                             const std::string& property) {
   terrain::FootprintOptions options;
   options.height_property = property;
+  options.min_height_property.clear();
   core::ProblemList told;
   try {
     terrain::read_footprints(file, options, told);
@@ -51,32 +52,44 @@ std::optional<std::size_t> features_without(const std::filesystem::path& file,
   return 0;
 }
 
-// The property that goes with the height's by its name ("min_height" with "height"), where by it most
-// buildings stand on the ground: as the lowest point of a roof it would raise all. Empty for none.
-std::string underside_beside(const std::filesystem::path& file,
-                             const std::vector<std::string>& properties,
-                             const std::string& height_property) {
-  for (const std::string& property : properties) {
-    std::string letters = plain(property);
-    if (!is_underside(letters) || letters.erase(letters.find("min"), 3) != plain(height_property))
-      continue;
-    terrain::FootprintOptions options;
-    options.height_property = height_property;
-    options.min_height_property.clear();
-    core::ProblemList told;
-    const std::size_t all = terrain::read_footprints(file, options, told).size();
-    options.min_height_property = property;
-    try {
-      const auto footprints = terrain::read_footprints(file, options, told);
-      const auto standing =
-          std::count_if(footprints.begin(), footprints.end(),
-                        [](const terrain::Footprint& each) { return each.min_height_m == 0.0; });
-      return 2 * static_cast<std::size_t>(standing) >= all ? property : "";
-    } catch (const core::InputError&) {
-      return "";  // not always a height
-    }
+// Whether the property is a height everywhere and most buildings stand on the ground by it: as the lowest point of a
+// roof it would raise all.
+bool leaves_most_standing(const std::filesystem::path& file, terrain::FootprintOptions options,
+                          const std::string& property) {
+  core::ProblemList told;
+  options.min_height_property.clear();
+  const std::size_t all = terrain::read_footprints(file, options, told).size();
+  options.min_height_property = property;
+  try {
+    const auto footprints = terrain::read_footprints(file, options, told);
+    const auto standing =
+        std::count_if(footprints.begin(), footprints.end(),
+                      [](const terrain::Footprint& each) { return each.min_height_m == 0.0; });
+    return 2 * static_cast<std::size_t>(standing) >= all;
+  } catch (const core::InputError&) {
+    return false;
   }
-  return "";
+}
+
+// As BuildingsGuess has it, beside the height of `options`.
+std::optional<std::string> underside_of(const std::filesystem::path& file,
+                                        const std::vector<std::string>& properties,
+                                        const terrain::FootprintOptions& options) {
+  const auto goes_with_height = [&](const std::string& property) {
+    std::string letters = plain(property);
+    return is_underside(letters) &&
+           letters.erase(letters.find("min"), 3) == plain(options.height_property);
+  };
+  const auto named = std::find_if(properties.begin(), properties.end(), goes_with_height);
+  if (named != properties.end() && leaves_most_standing(file, options, *named)) return *named;
+  // Names are the same to the reader in small letters and in capitals.
+  const std::string& otherwise = options.min_height_property;
+  const auto there = std::find_if(
+      properties.begin(), properties.end(),
+      [&](const std::string& property) { return plain(property) == plain(otherwise); });
+  if (there == properties.end()) return std::nullopt;
+  const bool rejected = there == named || !leaves_most_standing(file, options, otherwise);
+  return rejected ? std::optional<std::string>("") : std::nullopt;
 }
 
 }  // namespace
@@ -85,7 +98,6 @@ std::optional<BuildingsGuess> guess_buildings(const std::filesystem::path& file,
                                               core::ProblemList& problems) {
   try {
     const std::vector<std::string> properties = terrain::footprint_properties(file);
-    const terrain::FootprintOptions defaults;
     BuildingsGuess guess;
     std::optional<std::size_t> fewest;
     std::vector<std::string> tried;
@@ -100,11 +112,9 @@ std::optional<BuildingsGuess> guess_buildings(const std::filesystem::path& file,
     }
     core::ProblemList told;
     terrain::FootprintOptions options;
-    if (fewest) {
-      options.height_property = guess.height_property;
-      guess.min_height_property = underside_beside(file, properties, guess.height_property);
-    }
-    if (!guess.min_height_property.empty()) options.min_height_property = guess.min_height_property;
+    if (fewest) options.height_property = guess.height_property;
+    guess.min_height_property = underside_of(file, properties, options);
+    options.min_height_property = guess.min_height_property.value_or(options.min_height_property);
     const std::size_t count = terrain::read_footprints(file, options, told).size();
     std::string text =
         safe_words(file.filename().string()) + ": " + std::to_string(count) + " footprints";
@@ -115,9 +125,13 @@ std::optional<BuildingsGuess> guess_buildings(const std::filesystem::path& file,
       text += ", 5 m each: no property speaks of a height";
     else
       text += ", 5 m each: \"" + safe_words(tried.front()) + "\" is not always a number of metres";
-    const bool raised = !guess.min_height_property.empty();
-    if (raised) text += ", undersides from \"" + safe_words(guess.min_height_property) + "\"";
-    notes.push_back({"buildings", text, !fewest || *fewest > 0 || raised});
+    const auto& underside = guess.min_height_property;
+    if (underside && underside->empty())
+      text += ", all from the ground up: \"" + terrain::FootprintOptions().min_height_property +
+              "\" is no underside of most";
+    else if (underside)
+      text += ", undersides from \"" + safe_words(*underside) + "\"";
+    notes.push_back({"buildings", text, !fewest || *fewest > 0 || underside});
     return guess;
   } catch (const core::InputError& error) {
     problems.append(error.problems());

@@ -157,9 +157,9 @@ void add_buildings(Lines& lines, const SceneDraft& draft) {
   lines.key("file", toml_text(draft.buildings_file), "GeoJSON footprints");
   if (!draft.buildings.height_property.empty())
     lines.key("height_property", toml_text(draft.buildings.height_property), "metres over ground");
-  if (!draft.buildings.min_height_property.empty())
-    lines.key("min_height_property", toml_text(draft.buildings.min_height_property),
-              "of the underside");
+  if (const auto& underside = draft.buildings.min_height_property)
+    lines.key("min_height_property", toml_text(*underside),
+              underside->empty() ? "none: all stand on the ground" : "of the underside");
   lines.key("wall", toml_text("wall"), "a material: brick, metal, concrete");
   lines.key("roof", toml_text("roof"), "");
 }

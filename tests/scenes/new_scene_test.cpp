@@ -288,21 +288,56 @@ TEST_CASE("The underside of buildings is the property named like their height, i
   };
   Notes notes;
   const std::string lidar = R"("AVG_HEIGHT":18.5,"MIN_HEIGHT":15,"MAX_HEIGHT":21)";
-  CHECK(underside(lidar, lidar, notes).empty());
+  CHECK_FALSE(underside(lidar, lidar, notes).has_value());
   CHECK_THAT(listed(notes), Contains("heights from \"AVG_HEIGHT\"") && !Contains("? buildings"));
   notes.clear();
   const std::string roofs = R"("HEIGHT":18.5,"MIN_HEIGHT":15)";
-  CHECK(underside(roofs, roofs, notes).empty());
+  CHECK_FALSE(underside(roofs, roofs, notes).has_value());
   const std::string gone = R"("height":12,"min_height":13)";  // none would be left
-  CHECK(underside(gone, gone, notes).empty());
-  CHECK(underside(R"("height":12,"min_height":"yes")", R"("height":9)", notes).empty());
-  CHECK(underside(R"("measuredHeight":12,"min_height":2)", R"("measuredHeight":9)", notes).empty());
+  CHECK_FALSE(underside(gone, gone, notes).has_value());
+  CHECK_FALSE(underside(R"("height":12,"min_height":"yes")", R"("height":9)", notes).has_value());
+  CHECK_FALSE(underside(R"("measuredHeight":12,"min_height":2)", R"("measuredHeight":9)", notes)
+                  .has_value());
   notes.clear();
   CHECK(underside(R"("height":12,"min_height":3)", R"("height":9)", notes) == "min_height");
   CHECK(underside(R"("building:height":12,"building:min_height":3)",
                   R"("building:height":9,"building:min_height":0)",
                   notes) == "building:min_height");
   CHECK_THAT(listed(notes), Contains("? buildings") && Contains("undersides from \"min_height\""));
+}
+
+// The reader takes it without being told: its "n/a" refused the file, or it raised all.
+TEST_CASE("A render_min_height that is no underside is switched off in a new scene",
+          "[new-scene]") {
+  Notes notes;
+  const auto guess = [&](const std::string& first, const std::string& second) {
+    notes.clear();
+    return guessed_of(square_with(first, 10.0) + "," + square_with(second, 10.001), notes);
+  };
+  const auto broken = guess(R"("render_height":10,"render_min_height":"n/a")",
+                            R"("render_height":20,"render_min_height":0)");
+  CHECK(broken.height_property == "render_height");
+  CHECK(broken.min_height_property == "");
+  const auto beside = guess(R"("height":10,"RENDER_MIN_HEIGHT":"n/a")", R"("height":20)");
+  CHECK(beside.height_property == "height");
+  CHECK(beside.min_height_property == "");
+  const std::string raised = R"("render_height":20,"render_min_height":4)";
+  CHECK(guess(raised, raised).min_height_property == "");
+  CHECK_THAT(listed(notes), Contains("? buildings") && Contains("all from the ground up"));
+  // One that is an underside counts as before, also beside a height of another name.
+  CHECK_FALSE(guess(R"("height":10,"render_min_height":3)", R"("height":20)")
+                  .min_height_property.has_value());
+
+  const tests::TemporaryFolder data, folder;
+  core::ProblemList problems;
+  NewSceneRequest wanted = request(plain(data));
+  wanted.buildings = data.write("b.geojson", R"({"type":"FeatureCollection","features":[)" +
+                                                 square_with(raised, 10.01) + "]}");
+  const auto scene = make_new_scene(wanted, problems);
+  INFO(all_of(problems));
+  REQUIRE(scene.has_value());
+  CHECK_THAT(scene->text, Contains("min_height_property = \"\""));
+  CHECK(built(folder, *scene).scene != nullptr);
 }
 
 TEST_CASE("Foreign text in a scene file is data, whatever is in it", "[new-scene]") {
