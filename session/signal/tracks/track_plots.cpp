@@ -8,8 +8,11 @@
 #include "core/json_node.h"
 
 namespace fanbeam::session {
+namespace {
 
 namespace fs = std::filesystem;
+
+}  // namespace
 
 TrackPlots::TrackPlots(fs::path folder) : folder_(std::move(folder)) {
   constexpr std::uint64_t kLargest_bytes = 1ULL << 30U;
