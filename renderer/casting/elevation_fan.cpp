@@ -27,6 +27,11 @@ glm::dvec2 heading_at(const sensors::AntennaFrame& frame, double azimuth_rad, do
   return horizontal(sensors::direction(frame, azimuth_rad, elevation_rad, surface));
 }
 
+// What a cone's border reaches beyond 90 deg aside is no other direction.
+bool lies_beyond(sensors::ScanSurface surface, double azimuth_rad) {
+  return surface == sensors::ScanSurface::cone && std::cos(azimuth_rad) <= 0.0;
+}
+
 // Tangent of the elevation as the scan counts it (sensors/antenna/antenna_frame.h); rises with it.
 double slope_of(const sensors::AntennaFrame& frame, const glm::dvec3& relative_m,
                 sensors::ScanSurface surface) {
@@ -115,9 +120,7 @@ void ElevationFan::place(const sensors::AntennaFrame& frame, double left_rad, do
 
 bool ElevationFan::holds_lowest(const sensors::AntennaFrame& frame, double azimuth_rad) const {
   const sensors::ScanSurface surface = world_.sensor.scan.surface;
-  // What a cone's border reaches beyond 90 deg aside is no other direction.
-  const bool beyond = surface == sensors::ScanSurface::cone && std::cos(azimuth_rad) <= 0.0;
-  if (azimuths_are_upright(frame, surface) || beyond) return false;
+  if (azimuths_are_upright(frame, surface) || lies_beyond(surface, azimuth_rad)) return false;
   const VerticalPart part = vertical_part(frame, azimuth_rad, surface);
   return part.lowest_rad() > std::min(lowest_rad_, 0.0) + kLeastBelow_rad || part.is_even();
 }
@@ -149,6 +152,9 @@ void ElevationFan::climb(const sensors::AntennaFrame& frame, double left_rad, do
   const std::size_t begun = way == Way::from_lowest ? edges.size() : 0;
   if (world_.surfaces().terrain() != nullptr) {
     follow_ground(frame, (left_rad + right_rad) / 2, way, end_rad, edges);
+    if (left_rad < right_rad && !azimuths_are_upright(frame, world_.sensor.scan.surface))
+      for (const double azimuth_rad : {left_rad, right_rad})
+        follow_beside(frame, azimuth_rad, way, end_rad, begun, edges);
     // Beside the centre azimuth the horizon may stand a little higher.
     for (const double margin_rad : kHorizonMargin_rad)
       if (edges.size() > begun)
@@ -162,6 +168,26 @@ void ElevationFan::climb(const sensors::AntennaFrame& frame, double left_rad, do
     edges.push_back(lowest_rad_);
   }
   add_until(std::min(top_rad, end_rad), 1, object_step_rad_, edges);
+}
+
+// A tilted antenna, or a cone, has the same range at another elevation in each azimuth. Of the ground under
+// one beside the middle adds to `edges`, of which the middle one's are those from `begun` on, what lies
+// before its first step ends and what lies above its last: there the gate begins and ends.
+void ElevationFan::follow_beside(const sensors::AntennaFrame& frame, double azimuth_rad, Way way,
+                                 double end_rad, std::size_t begun,
+                                 std::vector<double>& edges) const {
+  if (lies_beyond(world_.sensor.scan.surface, azimuth_rad)) return;
+  thread_local std::vector<double> beside;
+  const auto first = static_cast<std::ptrdiff_t>(begun), start = first > 0 ? first - 1 : first;
+  beside.assign(edges.begin() + start, edges.begin() + first);
+  follow_ground(frame, azimuth_rad, way, end_rad, beside);
+  if (edges.size() > begun)
+    edges.insert(edges.begin() + first, beside.begin() + (first - start),
+                 std::lower_bound(beside.begin() + (first - start), beside.end(), edges[begun]));
+  edges.insert(
+      edges.end(),
+      edges.empty() ? beside.begin() : std::upper_bound(beside.begin(), beside.end(), edges.back()),
+      beside.end());
 }
 
 // Looks along headings near enough at the farthest range that nothing stands between two of them: from

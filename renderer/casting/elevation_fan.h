@@ -7,12 +7,16 @@
 // what stands there shows against nothing. The fan only places samples: what they hit is decided by
 // the caster.
 //
+// Azimuths of a tilted antenna, or a cone, have the gate's ends at elevations of their own: there the fan
+// follows the ground under the first and the last azimuth as well.
+//
 // Of level ground range rises with elevation, above the lowest direction of an azimuth. Where the beam
 // holds that direction (an antenna that looks down, is inverted or on its side), range falls with
 // elevation below it: each part is followed from there outwards, where the nearest does not count in one row
 // to just before the first range cell.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "core/constants.h"
@@ -29,7 +33,8 @@ class ElevationFan {
   ElevationFan(const World& world, const Sampling& sampling, Nearest nearest = Nearest::first_cell);
 
   // Increasing elevations: `edges` bound the intervals that rays stand for. Azimuths from
-  // `left_rad` to `right_rad`. Empty when nothing can be seen there.
+  // `left_rad` to `right_rad`: those that see an elevation as it is, the middles of sub-columns in which
+  // RayAim follows the range. Empty when nothing can be seen there.
   void place(const sensors::AntennaFrame& frame, double left_rad, double right_rad,
              std::vector<double>& edges) const;
 
@@ -44,6 +49,8 @@ class ElevationFan {
              double end_rad, std::vector<double>& edges) const;
   void follow_ground(const sensors::AntennaFrame& frame, double azimuth_rad, Way way,
                      double end_rad, std::vector<double>& edges) const;
+  void follow_beside(const sensors::AntennaFrame& frame, double azimuth_rad, Way way,
+                     double end_rad, std::size_t begun, std::vector<double>& edges) const;
   double highest_object_rad(const sensors::AntennaFrame& frame, double left_rad, double right_rad,
                             double low_rad, double end_rad) const;
   double highest_object_rad(const sensors::AntennaFrame& frame, const glm::dvec2& heading) const;

@@ -13,10 +13,11 @@ using namespace fanbeam;
 
 namespace {
 
-// Of one azimuth, from `height_m` above a plane, `pitch_rad` nose up.
+// Of one azimuth, or those that share a fan, from `height_m` above a plane, `pitch_rad` nose up.
 std::vector<double> edges_of(const sensors::Sensor& sensor, double height_m, double pitch_rad,
                              double azimuth_rad,
-                             const renderer::Sampling& sampling = renderer::sampling_for(4.0)) {
+                             const renderer::Sampling& sampling = renderer::sampling_for(4.0),
+                             double width_rad = 0.0) {
   const renderer::World world =
       tests::world(sensor, tests::ground(9000.0, 100.0, [](double, double) { return 0.0; }),
                    {materials::PhongNrcs(0.1, 0.1, 1.0)});
@@ -24,24 +25,25 @@ std::vector<double> edges_of(const sensors::Sensor& sensor, double height_m, dou
   pose.q_NB = pose.q_NB * glm::angleAxis(pitch_rad, glm::dvec3(0.0, 1.0, 0.0));
   std::vector<double> edges;
   const renderer::ElevationFan fan(world, sampling);
-  fan.place(renderer::antenna_of(sensor, pose), azimuth_rad, azimuth_rad, edges);
+  fan.place(renderer::antenna_of(sensor, pose), azimuth_rad - width_rad / 2,
+            azimuth_rad + width_rad / 2, edges);
   return edges;
 }
 
 // Requires a narrow interval of `edges` around every direction of the beam that meets the plane in the
-// gate, but for the last of it; how many were tried.
+// gate, but for what is not in the first `share` of it; how many were tried.
 int directions_held(const sensors::Sensor& sensor, double height_m, double azimuth_rad,
-                    const std::vector<double>& edges) {
+                    const std::vector<double>& edges, double share = 0.95, double step_rad = 0.01) {
   const sensors::AntennaFrame antenna = renderer::antenna_of(sensor, tests::level_pose(height_m));
   const double reach_rad = sensors::reach_rad(sensor.antenna.elevation) - 1e-3;
   int tried = 0;
-  for (double beside_rad = -reach_rad; beside_rad < reach_rad; beside_rad += 0.01) {
+  for (double beside_rad = -reach_rad; beside_rad < reach_rad; beside_rad += step_rad) {
     const double elevation_rad = sensor.antenna.boresight_elevation_rad + beside_rad;
     const double down =
         -sensors::direction(antenna, azimuth_rad, elevation_rad, sensor.scan.surface).z;
     if (std::abs(elevation_rad) > core::kPi / 2 || !(down > 0.0)) continue;
     const double range_m = height_m / down;
-    if (range_m < sensor.range.minimum_m || range_m >= 0.95 * sensor.range.maximum_m()) continue;
+    if (range_m < sensor.range.minimum_m || range_m >= share * sensor.range.maximum_m()) continue;
     ++tried;
     INFO("elevation " << core::degrees(elevation_rad) << " deg, " << range_m << " m");
     const auto above = std::lower_bound(edges.begin(), edges.end(), elevation_rad);
@@ -211,6 +213,39 @@ TEST_CASE("Fans of tilted antennas hold the ground of gates that begin before th
       }
       CHECK(held > 100);
     }
+}
+
+// Up to 7 deg beside the middle a gate's ends lie 7 deg higher or lower at 45 deg of bank.
+TEST_CASE("Fans of tilted antennas hold both ends of the gate in all azimuths that share them",
+          "[elevation_fan]") {
+  struct Case {
+    double roll_deg, pitch_deg, height_m;
+  };
+  for (const Case& of : {Case{10.0, -5.0, 60.0},
+                         {30.0, 0.0, 60.0},
+                         {-45.0, 0.0, 60.0},
+                         {45.0, 0.0, 200.0},
+                         {135.0, 0.0, 60.0},
+                         {135.0, 10.0, 60.0}})
+    for (const sensors::ScanSurface surface :
+         {sensors::ScanSurface::plane, sensors::ScanSurface::cone})
+      for (const double width_deg : {4.0, 14.0}) {
+        INFO("roll " << of.roll_deg << ", pitch " << of.pitch_deg << ", " << width_deg
+                     << " deg wide, cone " << (surface == sensors::ScanSurface::cone));
+        sensors::Sensor sensor = turned_sensor(surface, of.roll_deg, of.pitch_deg, -10.0);
+        sensor.antenna.elevation.half_power_width_rad = core::radians(20.0);
+        sensor.antenna.elevation.cut_rad = core::radians(30.0);
+        sensor.range.minimum_m = 300.0;
+        sensor.range.cells = 80;
+        const double azimuth_rad = core::radians(12.0), width_rad = core::radians(width_deg);
+        const std::vector<double> edges =
+            edges_of(sensor, of.height_m, 0.0, azimuth_rad, renderer::sampling_for(4.0), width_rad);
+        CHECK(std::is_sorted(edges.begin(), edges.end()));
+        int held = 0;
+        for (const double beside_rad : {-width_rad / 2, 0.0, width_rad / 2})
+          held += directions_held(sensor, of.height_m, azimuth_rad + beside_rad, edges, 1.0, 1e-3);
+        CHECK(held > 100);
+      }
 }
 
 TEST_CASE("Fans of few rays reach the end of the gate, whatever the number of its cells",
