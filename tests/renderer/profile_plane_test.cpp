@@ -132,6 +132,17 @@ TEST_CASE("Planes inclined along track and across hold the exact integral", "[pr
     }
 }
 
+// The boresight itself has no heading there.
+TEST_CASE("Slices of a beam that is centred straight down lie in its azimuths", "[profile]") {
+  sensors::Sensor sensor = short_sensor(tests::even_hivision(4));
+  sensor.antenna.boresight_elevation_rad = -core::kPi / 2;
+  for (const glm::dvec2 slope : {glm::dvec2(0.03, 0.0), {0.0, -0.05}})
+    for (const double heading_rad : {0.0, 0.6}) {
+      INFO("slope " << slope.x << ", " << slope.y << ", heading " << heading_rad);
+      CHECK(plane_error(plane(sensor, 10.0, slope), slope, {3.7, -1.3}, heading_rad) < 1e-9);
+    }
+}
+
 TEST_CASE("The local grazing angle counts from the facet, not from its cut", "[profile]") {
   // sigma0 / sin(psi) = 0.1 sin(psi) changes by cell / R = 3 % over the first cell, and a piece
   // takes the value of its middle for all of it, also for the part beyond a border between cells. A

@@ -14,6 +14,9 @@ namespace {
 // A beam to straight below or above spans it, but for rounding.
 constexpr double kHalfTurn_rad = core::kPi + 1e-6;
 
+// To there an antenna that counts as level (fan_layout.h) keeps its headings to a milliradian.
+constexpr double kSteepest_rad = core::kPi / 4;
+
 struct Headings {
   double left_rad = core::kPi, right_rad = -core::kPi;
 };
@@ -49,13 +52,15 @@ std::vector<Slice> level_slices(const World& world, int per_sub_column,
   const glm::dvec2 forward = horizontal(antenna.forward);
   const int count = sums.sub_columns * per_sub_column;
   const double width_rad = sums.step_rad / per_sub_column;
+  // Any elevation has an azimuth's heading, but one straight down or up.
+  const double elevation_rad =
+      std::clamp(world.sensor.antenna.boresight_elevation_rad, -kSteepest_rad, kSteepest_rad);
   std::vector<Slice> slices;
   slices.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     const double azimuth_rad = sums.first_azimuth_rad + (i + 0.5) * width_rad;
     const glm::dvec2 along = horizontal(
-        sensors::direction(antenna, azimuth_rad, world.sensor.antenna.boresight_elevation_rad,
-                           world.sensor.scan.surface));
+        sensors::direction(antenna, azimuth_rad, elevation_rad, world.sensor.scan.surface));
     double heading_rad = turn_rad(forward, along);
     // What few wide columns are filled up with, to whole groups, may lie beyond straight behind.
     if (!slices.empty() && heading_rad < slices.back().heading_rad) heading_rad += 2.0 * core::kPi;
