@@ -35,9 +35,9 @@ class SliceDeposit {
            PiecePowers& powers, const SliceBins& bins) const;
 
  private:
-  void add_in_column(const VisiblePieces& pieces, const SineWeights& weights, PiecePowers& powers,
-                     const SliceBins& bins) const;
-  void add_special(const VisiblePieces& pieces, const SineWeights& weights,
+  void add_in_column(const VisiblePieces& pieces, const Slice& slice, const SineWeights& weights,
+                     PiecePowers& powers, const SliceBins& bins) const;
+  void add_special(const VisiblePieces& pieces, const Slice& slice, const SineWeights& weights,
                    const PiecePowers& powers, int i, const SliceBins& bins) const;
   // From and to in sub-columns.
   struct Sweep {
@@ -50,14 +50,15 @@ class SliceDeposit {
     double high, low;
     double tilt = 0.0;  // of deposit()
   };
-  double tilt_of(const VisiblePieces& pieces, const SineWeights& weights, const PiecePowers& powers,
-                 int i, const Rows& rows) const;
+  double sine_of(const Slice& slice, const SineWeights& weights, double distance_m, double height_m,
+                 double range_m) const;
+  double tilt_of(const VisiblePieces& pieces, const Slice& slice, const SineWeights& weights,
+                 const PiecePowers& powers, int i, const Rows& rows) const;
   void add_across(const VisiblePieces& pieces, const Slice& slice, const SineWeights& weights,
                   const PiecePowers& powers, const SliceBins& bins) const;
   void add_to_sub_column(const VisiblePieces& pieces, const PiecePowers& powers, int i,
                          const Rows& rows, double share, int sub, const SliceBins& bins) const;
   Sweep sweep_of(const Slice& slice, const PiecePowers& powers, int i, const SliceBins& bins) const;
-  double cone_row(const Slice& slice, double distance_m, double height_m) const;
 
   const World& world_;
   const sensors::AntennaFrame& antenna_;
