@@ -17,10 +17,10 @@
 //     Omega = A E - A_main E_main ,
 // A and E the two-way integrals over azimuth and elevation with all lobes, A_main and E_main those
 // of the main beams; point targets with the largest two-way gain outside a main beam. A display of
-// mapping stc counts in azimuth widths, and lobes inside the cut make the beam A_cut / A_main times
-// as wide: what they add nothing to gets darker by 10 log10 of that; the larger change counts. Where
-// double bounce is possible no echo has a bound: the whole window. The same where lobes in elevation
-// change how the two paths to a target over mirroring ground cancel.
+// mapping stc, or seed where the sensor has no [seed], counts in azimuth widths, and lobes inside the cut
+// make the beam A_cut / A_main times as wide: what they add nothing to gets darker by 10 log10 of that;
+// the larger change counts. Where double bounce is possible no echo has a bound: the whole window. The
+// same where lobes in elevation change how the two paths to a target over mirroring ground cancel.
 #pragma once
 
 #include <vector>
