@@ -44,6 +44,7 @@ struct CfarSettings {
   // What the estimate is on average over the mean noise: the 75 % quantile of one look lies 1.4 dB
   // above it. Told by the calibration too.
   double mean_estimate = 1.0;
+  bool operator==(const CfarSettings&) const = default;
 };
 
 struct CfarCell {

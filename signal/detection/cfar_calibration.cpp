@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <deque>
 #include <map>
+#include <mutex>
 #include <numeric>
+#include <utility>
 
 #include "core/parallel.h"
 #include "core/random.h"
@@ -235,6 +238,33 @@ CfarCalibration drawn_calibration(const CfarSettings& settings,
   return found;
 }
 
+CfarCalibration calibrate(const CfarSettings& settings, const CellCorrelation& correlation,
+                          int looks) {
+  const std::vector<CfarOffset> offsets = cfar_offsets(settings);
+  if (offsets.size() > 2000)
+    refuse("reference cells", static_cast<double>(offsets.size()), "2000 at most");
+  const CfarReference reference = cfar_reference(settings);
+  cfar_factor(reference, settings.design_probability);  // refuses what cannot be
+  const Matrix matrix = correlation_matrix(offsets, correlation);
+  CfarCalibration found;
+  if (reference.kind == CfarKind::cell_averaging && looks == 1)
+    found.factor = exact_averaging_factor(matrix, settings.design_probability);
+  else
+    found = drawn_calibration(settings, offsets, matrix, looks);
+  if (!found.covered()) return found;
+  if (reference.kind != CfarKind::cell_averaging)
+    found.mean_estimate = drawn_mean_estimate(settings, offsets, matrix, looks);
+  found.design_probability = cfar_false_alarm_probability(reference, found.factor);
+  return found;
+}
+
+struct CalibrationQuestion {
+  CfarSettings settings;
+  CellCorrelation correlation;
+  int looks = 1;
+  bool operator==(const CalibrationQuestion&) const = default;
+};
+
 }  // namespace
 
 std::complex<double> cell_correlation(const std::vector<double>& weights, int length, int lag) {
@@ -253,21 +283,20 @@ std::complex<double> cell_correlation(const std::vector<double>& weights, int le
 CfarCalibration calibrated_cfar(const CfarSettings& settings, const CellCorrelation& correlation,
                                 int looks) {
   check_count("looks", looks, 1, kMostLooks);
-  const std::vector<CfarOffset> offsets = cfar_offsets(settings);
-  if (offsets.size() > 2000)
-    refuse("reference cells", static_cast<double>(offsets.size()), "2000 at most");
-  const CfarReference reference = cfar_reference(settings);
-  cfar_factor(reference, settings.design_probability);  // refuses what cannot be
-  const Matrix matrix = correlation_matrix(offsets, correlation);
-  CfarCalibration found;
-  if (reference.kind == CfarKind::cell_averaging && looks == 1)
-    found.factor = exact_averaging_factor(matrix, settings.design_probability);
-  else
-    found = drawn_calibration(settings, offsets, matrix, looks);
-  if (!found.covered()) return found;
-  if (reference.kind != CfarKind::cell_averaging)
-    found.mean_estimate = drawn_mean_estimate(settings, offsets, matrix, looks);
-  found.design_probability = cfar_false_alarm_probability(reference, found.factor);
+  // A radar asks the same for every frame, and a sum over many channels takes seconds.
+  constexpr std::size_t kMostKept = 8;
+  static std::mutex mutex;
+  static std::deque<std::pair<CalibrationQuestion, CfarCalibration>> answers;
+  CalibrationQuestion question{settings, correlation, looks};
+  {
+    const std::lock_guard lock(mutex);
+    for (const auto& [asked, answer] : answers)
+      if (asked == question) return answer;
+  }
+  const CfarCalibration found = calibrate(settings, correlation, looks);
+  const std::lock_guard lock(mutex);
+  answers.emplace_front(std::move(question), found);
+  if (answers.size() > kMostKept) answers.pop_back();
   return found;
 }
 

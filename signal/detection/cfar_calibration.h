@@ -29,7 +29,7 @@
 // Inputs: wanted probability in (0, 1), up to 2000 reference cells, looks 1 to kMostLooks; E-RANGE
 // otherwise. Accuracy: 1e-9 for the exact case; about 1 % for 1e-4 and N = 16. Cost: what is exact
 // grows as N^3, 0.1 s for N = 92; what is drawn takes 0.3 s of one thread for N = 16, 0.6 s for N =
-// 92 and 12 looks, 17 s for N = 600 and 12 looks.
+// 92 and 12 looks, 17 s for N = 600 and 12 looks; the last eight are remembered, of all threads.
 #pragma once
 
 #include <complex>
@@ -45,6 +45,7 @@ struct CellCorrelation {
   int column_length = 0;
   std::vector<double> row_weights;  // of the transform along the map's rows (Doppler)
   int row_length = 0;
+  bool operator==(const CellCorrelation&) const = default;
 };
 
 struct CfarCalibration {

@@ -11,6 +11,7 @@
 #include "signal/detection/cfar_calibration.h"
 #include "signal/detection/map_peaks.h"
 #include "signal/fourier/window.h"
+#include "tests/processor_time.h"
 
 using namespace fanbeam;
 using namespace fanbeam::signal;
@@ -282,6 +283,32 @@ TEST_CASE("a sum over channels is calibrated to a few percent, even for rare ala
     CHECK(sum.factor < 0.5 * cfar_factor(cfar_reference(settings), probability));
     CHECK(sum.factor > 1.0);
   }
+}
+
+// A data set makes its radar anew for every frame.
+TEST_CASE("a calibration that was asked for before costs nothing, and is that of its own question",
+          "[cfar][calibration]") {
+  const auto taylor = window_weights({.kind = WindowKind::taylor}, 128);
+  const CfarSettings settings{.kind = CfarKind::ordered_statistic,
+                              .design_probability = 1.7e-4,  // asked for by nobody else
+                              .along_columns = {2, 4, false},
+                              .along_rows = {2, 2, true}};
+  const double begin_s = tests::processor_time_s();
+  const CfarCalibration first = calibrated_cfar(settings, {taylor, 128, taylor, 128}, 6);
+  const double drawn_s = tests::processor_time_s() - begin_s;
+  const CfarCalibration other = calibrated_cfar(settings, {taylor, 128, taylor, 128}, 5);
+  const CfarCalibration padded = calibrated_cfar(settings, {taylor, 256, taylor, 128}, 6);
+  CHECK(other.factor > first.factor);
+  CHECK(padded.factor != first.factor);
+  const double again_s = tests::processor_time_s();
+  for (int i = 0; i < 10; ++i) {
+    const CfarCalibration again = calibrated_cfar(settings, {taylor, 128, taylor, 128}, 6);
+    CHECK(again.factor == first.factor);
+    CHECK(again.design_probability == first.design_probability);
+    CHECK(again.relative_error == first.relative_error);
+    CHECK(again.mean_estimate == first.mean_estimate);
+  }
+  CHECK(tests::processor_time_s() - again_s < drawn_s);
 }
 
 TEST_CASE("neighbouring cells of a Hann window are correlated by 2/3 and 1/6", "[calibration]") {
