@@ -86,6 +86,16 @@ def test_what_is_wanted_is_checked(lone_target):
         fanbeam.signal.frame(lone_target, 0, waveform="continuous", receivers=64, numbers={"duration": 1000.0})
 
 
+def test_maps_and_detections_of_a_waveform_without_them_are_refused(lone_target):
+    for product in ("detections", "range-doppler", "range-azimuth", "cube"):
+        with pytest.raises(fanbeam.InputError, match=f'E-UNSUPPORTED want = "{product}": expected beat: ') as told:
+            fanbeam.signal.frame(lone_target, 0, want=("beat", product), waveform="triangle")
+        assert told.value.problems[0].field == "want"
+    # By default what there is.
+    seen = fanbeam.signal.frame(lone_target, 0, waveform="triangle", transmitters=1, receivers=1, rays_per_cell=0.3)
+    assert len(seen.beats) == 1 and seen.beats[0].shape[:2] == (1, 2) and seen.detections is None
+
+
 def test_a_value_of_another_type_is_told_with_its_field(lone_target):
     for field, value in (("seed", "x"), ("receivers", 1.5), ("real", "yes"), ("unfold", 1), ("waveform", 5),
                          ("radar", 3), ("numbers", 3), ("want", 3)):

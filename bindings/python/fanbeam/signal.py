@@ -62,7 +62,7 @@ def frame(
     scene: Scene,
     index: int,
     *,
-    want: Iterable[str] = ("beat", "detections"),
+    want: Iterable[str] | None = None,
     waveform: str = "",
     radar: str | os.PathLike[str] | None = None,
     transmitters: int | None = None,
@@ -81,7 +81,8 @@ def frame(
     Samples are a realisation: targets fluctuate, whatever the scene's pictures show, and every effect with any
     influence on the echoes runs unless the scene was opened without it.
 
-    want           of "beat", "cube", "range-doppler", "range-azimuth", "detections"
+    want           of "beat", "cube", "range-doppler", "range-azimuth", "detections"; by default beats and detections.
+                   Waveforms without chirps in sequence have beats alone: of them more is refused
     waveform       a kind ("chirp-sequence", "triangle", ...) or "automotive-76ghz"; "": by the sensor
     radar          TOML file of a radar, which also has windows, detector, angle method, clusters, channel
                    errors and places of elements (docs/fmcw.md); the scene's own by default. The other arguments replace what it says;
@@ -93,10 +94,10 @@ def frame(
     """
     if not isinstance(scene, Scene):
         raise TypeError(f"scene: expected a fanbeam.Scene, not {scene!r}")
-    if not isinstance(want, Iterable):
+    if want is not None and not isinstance(want, Iterable):
         raise TypeError(f"want: expected an iterable of texts, not {want!r}")
-    products = set(want)
-    if unknown := products - {"beat", "cube", "range-doppler", "range-azimuth", "detections"}:
+    products = None if want is None else set(want)
+    if unknown := (products or set()) - {"beat", "cube", "range-doppler", "range-azimuth", "detections"}:
         raise ValueError(f"want: no {', '.join(sorted(map(str, unknown)))}")
     told = {
         "waveform": waveform,
@@ -122,7 +123,7 @@ def frame(
         found = np.array([tuple(row) for row in found], _DETECTION)
     beats = made.pop("beats")
     return SignalFrame(
-        beats=beats if "beat" in products else [],
+        beats=beats if products is None or "beat" in products else [],
         cube=made.pop("cube"),
         range_doppler_W=made.pop("range_doppler_W"),
         range_azimuth_W=made.pop("range_azimuth_W"),

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -175,7 +176,19 @@ py::dict axes_of(const session::FmcwRadar& radar) {
   return result;
 }
 
-py::dict frame(const Scene& scene, int index, const std::set<std::string>& products,
+// Of nothing asked for, what the waveform has.
+std::set<std::string> chosen_products(const std::optional<std::set<std::string>>& asked,
+                                      const session::FmcwRadar& radar) {
+  if (!asked)
+    return radar.maps ? std::set<std::string>{"beat", "detections"} : std::set<std::string>{"beat"};
+  for (const std::string& name : *asked)
+    if (name != "beat" && !radar.maps)
+      core::throw_input_error(core::ErrorClass::unsupported, "want", "\"" + name + "\"",
+                              "beat: maps and detections need a chirp sequence");
+  return *asked;
+}
+
+py::dict frame(const Scene& scene, int index, const std::optional<std::set<std::string>>& asked,
                const py::dict& told) {
   const std::shared_ptr<const scenes::Scene> now = scene.session().scene();
   const session::FmcwSettings settings = settings_of(told, now->description.signal_file);
@@ -186,6 +199,7 @@ py::dict frame(const Scene& scene, int index, const std::set<std::string>& produ
       const core::StopScope scope(stop);
       const core::ThreadLimit limit(scene.session().threads());
       made->radar = session::fmcw_radar(settings, sensor);
+      const std::set<std::string> products = chosen_products(asked, made->radar);
       session::check_processing(made->radar, products);
       const auto planned = session::planned_for_signals(now);
       made->paths = session::fmcw_paths(*planned, index, settings);
