@@ -158,8 +158,13 @@ void prepare_maps(const FmcwSettings& options, const Front& front, FmcwRadar& ra
   const int samples = signal::samples_per_segment(radar.waveform, 0);
   const int chirps = static_cast<int>(segments.size()) / slots;
   const double fs_Hz = radar.waveform.sample_rate_Hz[0];
-  if (segments.size() < 2 || chirps < 2 || samples < 2)
-    core::throw_input_error(core::ErrorClass::range, "--chirps", chirps, "2 or more");
+  // Real samples hold every range twice.
+  const int whole = options.real ? samples / 2 : samples;
+  if (chirps < 2) core::throw_input_error(core::ErrorClass::range, "--chirps", chirps, "2 or more");
+  if (whole < 2)
+    core::throw_input_error(core::ErrorClass::range, "--sample-rate",
+                            fmt::format("{} in a ramp", samples),
+                            options.real ? "4 samples or more" : "2 samples or more");
   radar.timing = {fs_Hz, segments[0].slope_Hz_per_s, segments[1].start_s - segments[0].start_s,
                   radar.waveform.wavelength_m()};
   radar.middle_s = signal::middle_s(segments);
@@ -169,8 +174,6 @@ void prepare_maps(const FmcwSettings& options, const Front& front, FmcwRadar& ra
   radar.azimuths_rad = signal::angle_cell_azimuths_rad(
       std::max(kAngleCells, radar.array.channels()), radar.pitch_m, radar.waveform.wavelength_m());
   signal::DetectionSettings& settings = radar.detection;
-  // Real samples hold every range twice.
-  const int whole = options.real ? samples / 2 : samples;
   const double most_range_m = wanted_range_m(options, front);
   settings.transform.kept_range_cells =
       most_range_m > 0.0

@@ -221,6 +221,32 @@ TEST_CASE("An array at two heights measures elevation", "[fmcw]") {
   CHECK_THROWS_AS(fmcw_radar(options, sensor), core::InputError);
 }
 
+TEST_CASE("A ramp with too few samples for ranges is told as that, not as too few chirps",
+          "[fmcw]") {
+  const sensors::Sensor sensor = automotive();
+  FmcwSettings options;
+  options.waveform = "chirp-sequence";
+  const auto told = [&](double rate_MHz, double chirps) -> std::string {
+    options.numbers[2] = rate_MHz;
+    options.numbers[8] = 0.1;  // us
+    options.numbers[11] = chirps;
+    try {
+      fmcw_radar(options, sensor);
+    } catch (const core::InputError& error) {
+      const core::Problem& problem = error.problems().at(0);
+      return problem.field + " = " + problem.value + ": " + problem.expected;
+    }
+    return "taken";
+  };
+  CHECK(told(10.0, 256.0) == "--sample-rate = 1 in a ramp: 2 samples or more");
+  CHECK(told(10.0, 1.0) == "--chirps = 1: 2 or more");
+  CHECK(told(20.0, 256.0) == "taken");
+  // Real ones hold every range twice.
+  options.real = true;
+  CHECK(told(30.0, 256.0) == "--sample-rate = 3 in a ramp: 4 samples or more");
+  CHECK(told(40.0, 256.0) == "taken");
+}
+
 TEST_CASE("False alarms are as many as asked for, in turn and at once, by every detector",
           "[fmcw]") {
   const sensors::Sensor sensor = automotive();
