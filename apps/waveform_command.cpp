@@ -53,49 +53,23 @@ void print_target(const session::WaveformTarget& target) {
                beat.beat_Hz);
 }
 
-// The factories name fields; here they are options.
-core::Problem in_words_of_options(core::Problem problem) {
-  constexpr std::pair<const char*, const char*> kNames[] = {{"frequency_Hz", "--frequency"},
-                                                            {"bandwidth_Hz", "--bandwidth"},
-                                                            {"deviation_Hz", "--bandwidth"},
-                                                            {"sample_rate_Hz", "--sample-rate"},
-                                                            {"interval_s", "--interval"},
-                                                            {"ramp_s", "--ramp"},
-                                                            {"second_ramp_s", "--second-ramp"},
-                                                            {"pulse_width_s", "--pulse-width"},
-                                                            {"hop_Hz", "--hop"},
-                                                            {"|shift_Hz|", "--shift"},
-                                                            {"chirps x slots", "--chirps"},
-                                                            {"samples", "--sample-rate"}};
-  for (const auto& [field, option] : kNames)
-    if (problem.field == field) problem.field = option;
-  return problem;
-}
-
 }  // namespace
 
 int waveform(const WaveformOptions& options, const CommonOptions& common) {
-  try {
-    const signal::Waveform made = session::chosen_waveform(options);
-    const std::optional<session::WaveformTarget> target = target_of(options, made);
-    if (!options.mixer.empty())
-      session::write_mixer(options.mixer, signal::mixer_trace(made, target->path),
-                           fmt::format("{}: echo at {:.6g} m, {:.6g} m/s", signal::name(made.kind),
-                                       target->path.range_m, target->path.radial_speed_mps));
-    if (options.json) {
-      fmt::print("{}\n", json_of(made, target).dump(2));
-    } else {
-      print_tables(made);
-      if (target) print_target(*target);
-      if (target && !common.quiet) print_problems(target->warnings);
-      if (!options.mixer.empty()) fmt::print("\nmixer {}\n", options.mixer);
-    }
-  } catch (const core::InputError& error) {
-    std::vector<core::Problem> problems;
-    for (const core::Problem& problem : error.problems())
-      problems.push_back(in_words_of_options(problem));
-    throw core::InputError(problems);
+  const signal::Waveform made = session::chosen_waveform(options);
+  const std::optional<session::WaveformTarget> target = target_of(options, made);
+  if (!options.mixer.empty())
+    session::write_mixer(options.mixer, signal::mixer_trace(made, target->path),
+                         fmt::format("{}: echo at {:.6g} m, {:.6g} m/s", signal::name(made.kind),
+                                     target->path.range_m, target->path.radial_speed_mps));
+  if (options.json) {
+    fmt::print("{}\n", json_of(made, target).dump(2));
+    return kExitDone;
   }
+  print_tables(made);
+  if (target) print_target(*target);
+  if (target && !common.quiet) print_problems(target->warnings);
+  if (!options.mixer.empty()) fmt::print("\nmixer {}\n", options.mixer);
   return kExitDone;
 }
 

@@ -272,9 +272,9 @@ FmcwRadar fmcw_radar(const FmcwSettings& options, const sensors::Sensor& sensor)
                             "a plane scan: a line array measures cones by itself");
   if (const auto told = options.numbers[number_of("--frequency")])
     if (std::abs(*told * 1e9 / sensor.waveform.frequency_Hz - 1.0) > 1e-6)
-      core::throw_input_error(
-          core::ErrorClass::range, "waveform.frequency_GHz", *told,
-          core::number_text(sensor.waveform.frequency_Hz * 1e-9) + ", the scene's sensor's");
+      core::throw_input_error(core::ErrorClass::range, "waveform.frequency_GHz", *told,
+                              "the scene's sensor's " +
+                                  core::number_text(sensor.waveform.frequency_Hz * 1e-9) + " GHz");
   return made(options, waveform_name(options, sensor),
               {sensor.waveform.frequency_Hz, sensor.waveform.bandwidth_Hz,
                noise_figure_of(options, sensor), sensor.range.maximum_m()});

@@ -1,10 +1,15 @@
 #include "session/signal/waveform_choice.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <set>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "core/errors.h"
+#include "core/text.h"
 #include "signal/waveform/factories.h"
 
 namespace fanbeam::session {
@@ -152,6 +157,37 @@ signal::Waveform ramped_waveform(WaveformKind kind, Given& given) {
   return signal::two_slopes(slopes);
 }
 
+// The factories name fields in SI; whoever asked named options in their units.
+core::Problem in_words_of_options(core::Problem problem) {
+  constexpr std::pair<const char*, const char*> kNames[] = {{"frequency_Hz", "--frequency"},
+                                                            {"bandwidth_Hz", "--bandwidth"},
+                                                            {"deviation_Hz", "--bandwidth"},
+                                                            {"sample_rate_Hz", "--sample-rate"},
+                                                            {"interval_s", "--interval"},
+                                                            {"ramp_s", "--ramp"},
+                                                            {"second_ramp_s", "--second-ramp"},
+                                                            {"pulse_width_s", "--pulse-width"},
+                                                            {"hop_Hz", "--hop"},
+                                                            {"|shift_Hz|", "--shift"}};
+  // Of no single option: a product.
+  if (problem.field == "chirps x slots") problem.field = "--chirps x slots";
+  if (problem.field == "samples") {
+    problem.field = "--sample-rate";
+    problem.value += " samples";
+  }
+  for (const auto& [field, option] : kNames)
+    for (const WaveformNumber& number : kWaveformNumbers)
+      if (problem.field == field && std::string_view(option) == number.option)
+        if (const core::ParsedNumber value = core::parse_number(problem.value);
+            value.error == core::NumberError::none) {
+          problem.field = option;
+          // To the digits that somebody told, without those of the conversion.
+          problem.value = fmt::format("{:.12g}", value.value / number.to_SI);
+          return problem;
+        }
+  return problem;
+}
+
 }  // namespace
 
 std::string waveform_kinds_text() {
@@ -169,7 +205,15 @@ signal::Waveform chosen_waveform(const WaveformSettings& options) {
   Given given(options);
   const bool is_flat = *kind == WaveformKind::continuous || *kind == WaveformKind::pulsed ||
                        *kind == WaveformKind::sinusoidal || *kind == WaveformKind::stepped;
-  signal::Waveform waveform = is_flat ? flat_waveform(*kind, given) : ramped_waveform(*kind, given);
+  signal::Waveform waveform;
+  try {
+    waveform = is_flat ? flat_waveform(*kind, given) : ramped_waveform(*kind, given);
+  } catch (const core::InputError& error) {
+    std::vector<core::Problem> problems;
+    for (const core::Problem& problem : error.problems())
+      problems.push_back(in_words_of_options(problem));
+    throw core::InputError(std::move(problems));
+  }
   given.refuse_the_rest();
   return waveform;
 }

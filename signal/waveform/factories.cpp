@@ -8,14 +8,15 @@
 namespace fanbeam::signal {
 namespace {
 
-void check_below(const char* field, double value, double limit) {
+// `what` the limit is: its number would be in SI, which not everybody who is told has asked in.
+void check_below(const char* field, double value, double limit, const char* what) {
   check_positive(field, value);
-  if (value >= limit) refuse(field, value, "below " + core::number_text(limit));
+  if (value >= limit) refuse(field, value, std::string("below the ") + what);
 }
 
 void check_ramps(const TriangleParameters& parameters) {
   check_positive("frequency_Hz", parameters.frequency_Hz);
-  check_below("bandwidth_Hz", parameters.bandwidth_Hz, parameters.frequency_Hz);
+  check_below("bandwidth_Hz", parameters.bandwidth_Hz, parameters.frequency_Hz, "frequency");
   check_positive("ramp_s", parameters.ramp_s);
   check_positive("sample_rate_Hz", parameters.sample_rate_Hz);
 }
@@ -42,12 +43,11 @@ void add_triangle(const TriangleParameters& parameters, double turn_s, double ra
 void add_chirps(const ChirpSequenceParameters& parameters, double start_s,
                 std::vector<Segment>& segments) {
   check_positive("frequency_Hz", parameters.frequency_Hz);
-  check_below("bandwidth_Hz", parameters.bandwidth_Hz, parameters.frequency_Hz);
+  check_below("bandwidth_Hz", parameters.bandwidth_Hz, parameters.frequency_Hz, "frequency");
   check_positive("ramp_s", parameters.ramp_s);
   check_positive("interval_s", parameters.interval_s);
   if (parameters.interval_s < parameters.ramp_s)
-    refuse("interval_s", parameters.interval_s,
-           "at least ramp_s = " + core::number_text(parameters.ramp_s));
+    refuse("interval_s", parameters.interval_s, "at least the ramp");
   check_positive("sample_rate_Hz", parameters.sample_rate_Hz);
   check_count("chirps", parameters.chirps, 1, 65536);
   check_count("slots", parameters.slots, 1, 256);
@@ -85,7 +85,7 @@ Waveform continuous(const ContinuousParameters& parameters) {
 
 Waveform pulsed(const PulsedParameters& parameters) {
   check_positive("interval_s", parameters.interval_s);
-  check_below("pulse_width_s", parameters.pulse_width_s, parameters.interval_s);
+  check_below("pulse_width_s", parameters.pulse_width_s, parameters.interval_s, "interval");
   check_count("pulses", parameters.pulses, 1, 65536);
   Waveform waveform =
       base(WaveformKind::pulsed, parameters.frequency_Hz, 1.0 / parameters.pulse_width_s, true);
@@ -116,7 +116,7 @@ Waveform triangle(const TriangleParameters& parameters) {
 
 Waveform sinusoidal(const SinusoidalParameters& parameters) {
   check_positive("frequency_Hz", parameters.frequency_Hz);
-  check_below("deviation_Hz", parameters.deviation_Hz, parameters.frequency_Hz);
+  check_below("deviation_Hz", parameters.deviation_Hz, parameters.frequency_Hz, "frequency");
   check_positive("modulation_Hz", parameters.modulation_Hz);
   check_count("periods", parameters.periods, 1, 65536);
   Waveform waveform = base(WaveformKind::sinusoidal, parameters.frequency_Hz,
@@ -132,7 +132,7 @@ Waveform two_slopes(const TwoSlopesParameters& parameters) {
   check_ramps(parameters.first);
   check_positive("second_ramp_s", parameters.second_ramp_s);
   if (parameters.second_ramp_s == parameters.first.ramp_s)
-    refuse("second_ramp_s", parameters.second_ramp_s, "another time than ramp_s");
+    refuse("second_ramp_s", parameters.second_ramp_s, "another time than the first ramp");
   Waveform waveform = base(WaveformKind::two_slopes, parameters.first.frequency_Hz,
                            parameters.first.bandwidth_Hz, parameters.first.complex_baseband);
   add_triangle(parameters.first, 0.0, parameters.first.ramp_s, 0, waveform.segments);
@@ -164,7 +164,7 @@ Waveform coded_triangle(const CodedTriangleParameters& parameters) {
   if (ramps.down_first)
     core::throw_input_error(core::ErrorClass::unsupported, "down_first", "true", "up, flat, down");
   check_positive("flat_s", parameters.flat_s);
-  check_below("hop_Hz", parameters.hop_Hz, ramps.bandwidth_Hz);
+  check_below("hop_Hz", parameters.hop_Hz, ramps.bandwidth_Hz, "bandwidth");
   const std::vector<int> code = m_sequence(parameters.code_degree);
   const double chip_s = parameters.flat_s / static_cast<double>(code.size());
   Waveform waveform = base(WaveformKind::coded_triangle, ramps.frequency_Hz, ramps.bandwidth_Hz,
@@ -182,10 +182,10 @@ Waveform coded_triangle(const CodedTriangleParameters& parameters) {
 
 Waveform stepped(const SteppedParameters& parameters) {
   check_positive("frequency_Hz", parameters.frequency_Hz);
-  check_below("bandwidth_Hz", parameters.bandwidth_Hz, parameters.frequency_Hz);
+  check_below("bandwidth_Hz", parameters.bandwidth_Hz, parameters.frequency_Hz, "frequency");
   check_positive("step_s", parameters.step_s);
   check_count("steps", parameters.steps, 2, 65536);
-  check_below("|shift_Hz|", std::abs(parameters.shift_Hz), parameters.bandwidth_Hz);
+  check_below("|shift_Hz|", std::abs(parameters.shift_Hz), parameters.bandwidth_Hz, "bandwidth");
   Waveform waveform =
       base(WaveformKind::stepped, parameters.frequency_Hz, parameters.bandwidth_Hz, true);
   for (int i = 0; i < 2 * parameters.steps; ++i) {

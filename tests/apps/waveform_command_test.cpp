@@ -55,3 +55,21 @@ TEST_CASE("The waveform command refuses what the kind does not have", "[waveform
   for (const char* word : {"KIND", "--bandwidth", "--refuse-folding", "--json", "receding"})
     CHECK(help.output.find(word) != std::string::npos);
 }
+
+TEST_CASE("The waveform command tells what does not go together in the units of its options",
+          "[waveform_command]") {
+  const auto told = [](const std::string& options, const std::string& words) {
+    const auto run = tests::run_fanbeam("waveform " + options);
+    INFO(options << ": " << run.output);
+    CHECK(run.exit_code == 2);
+    CHECK(run.output.find(words) != std::string::npos);
+  };
+  told("--interval 10", "--interval = 10: expected at least the ramp");
+  told("two-slopes --second-ramp 2000",
+       "--second-ramp = 2000: expected another time than the first ramp");
+  told("--frequency 0.2 --bandwidth 250", "--bandwidth = 250: expected below the frequency");
+  told("stepped --shift -300000", "--shift = 300000: expected below the bandwidth");
+  // The number of samples is no rate.
+  told("--sample-rate 100000", "--sample-rate = 5.12e+08 samples: expected at most 1e8 in a frame");
+  told("--chirps 65536 --slots 256", "--chirps x slots = 16777216: expected 1 to 1000000");
+}

@@ -76,6 +76,17 @@ def test_what_a_radar_cannot_be_is_told_by_arguments(lone_target):
     assert (told.value.problems[0].field, told.value.problems[0].expected) == ("slots", "1, or as many as transmitters")
 
 
+def test_numbers_that_do_not_go_together_are_told_in_SI_as_they_were_given(lone_target):
+    with pytest.raises(fanbeam.InputError) as told:
+        fanbeam.signal.waveform("chirp-sequence", interval=10e-6)
+    (problem,) = told.value.problems
+    assert (problem.field, problem.value, problem.expected) == ("interval", "1e-05", "at least the ramp")
+    with pytest.raises(fanbeam.InputError, match="hop = 700000: expected a parameter of triangle"):
+        fanbeam.signal.waveform("triangle", hop=700e3)
+    with pytest.raises(fanbeam.InputError, match="frequency = 77000000000: expected the scene's sensor's 35"):
+        fanbeam.signal.frame(lone_target, 0, want=("beat",), numbers={"frequency": 77e9})
+
+
 def test_what_is_wanted_is_checked(lone_target):
     with pytest.raises(ValueError, match="beats"):
         fanbeam.signal.frame(lone_target, 0, want=("beats",))

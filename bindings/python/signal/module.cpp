@@ -1,4 +1,5 @@
 // fanbeam._signal: what fanbeam/signal.py is written over. Links FFTW.
+#include <fmt/format.h>
 #include <pybind11/complex.h>
 #include <pybind11/stl.h>
 
@@ -18,6 +19,7 @@
 #include "bindings/python/scene_handle.h"
 #include "core/number_range.h"
 #include "core/parallel.h"
+#include "core/text.h"
 #include "session/signal/chain.h"
 #include "session/signal/paths.h"
 #include "session/signal/radar_file.h"
@@ -48,6 +50,19 @@ std::string in_python_words(const std::string& text) {
   return result;
 }
 
+// A number of the waveform by the name of Python's argument, in SI. Options and keys have handy units.
+void tell_in_SI(core::Problem& problem) {
+  for (const session::WaveformNumber& known : session::kWaveformNumbers) {
+    if (problem.field != known.option && problem.field != std::string("waveform.") + known.key)
+      continue;
+    problem.field = known.option;
+    if (const core::ParsedNumber value = core::parse_number(problem.value);
+        value.error == core::NumberError::none)
+      problem.value = fmt::format("{:.12g}", value.value * known.to_SI);
+    return;
+  }
+}
+
 // What `work` refuses by the program's options is told by Python's arguments.
 template <class Work>
 auto told_in_python_words(const Work& work) {
@@ -56,6 +71,7 @@ auto told_in_python_words(const Work& work) {
   } catch (const core::InputError& error) {
     std::vector<core::Problem> problems = error.problems();
     for (core::Problem& problem : problems) {
+      tell_in_SI(problem);
       problem.field = in_python_words(problem.field);
       problem.expected = in_python_words(problem.expected);
     }
