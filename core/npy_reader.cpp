@@ -39,6 +39,13 @@ std::string_view behind(std::string_view dictionary, std::string_view key) {
                                       : trimmed(dictionary.substr(at + key.size() + 3));
 }
 
+// Of a text the text alone, of a list of fields its beginning.
+std::string_view told_type(std::string_view type) {
+  constexpr std::size_t kMostTold = 20;
+  return type.starts_with('\'') ? type.substr(0, std::min(type.find('\'', 1), kMostTold - 1) + 1)
+                                : type.substr(0, kMostTold);
+}
+
 std::vector<std::size_t> shape_in(std::string_view text, const fs::path& path) {
   if (text.empty() || text.front() != '(' || text.find(')') == std::string_view::npos)
     refuse_npy(ErrorClass::parse, path, "shape", std::string(text.substr(0, 40)), "a tuple");
@@ -124,7 +131,7 @@ NpyHeader read_npy_header(const fs::path& path) {
       header.value_bytes = bytes;
     }
   if (header.type.empty())
-    refuse_npy(ErrorClass::unsupported, path, "descr", std::string(type.substr(0, 20)),
+    refuse_npy(ErrorClass::unsupported, path, "descr", std::string(told_type(type)),
                "one of: <c8, <c16, <f4, <f8, <i2");
   if (!behind(text, "fortran_order").starts_with("False"))
     refuse_npy(ErrorClass::unsupported, path, "fortran_order", "not False", "C order");

@@ -105,6 +105,14 @@ TEST_CASE("NumPy files that lie, are cut or hold what is no number are refused",
   CHECK(with("{'descr': '<c8', 'fortran_order': False, 'shape': ()}") == "E-UNSUPPORTED");
   CHECK(with("{'descr': '>c8', 'fortran_order': False, 'shape': (1,)}") == "E-UNSUPPORTED");
   CHECK(with("{'descr': '<c8', 'fortran_order': True, 'shape': (1,)}") == "E-UNSUPPORTED");
+  // Of the header the type alone is told.
+  CHECK_THROWS_WITH(read_npy_header(npy_file(
+                        folder, "{'descr': '>c8', 'fortran_order': False, 'shape': (1,)}", {})),
+                    Catch::Contains("descr = '>c8': expected one of"));
+  CHECK_THROWS_WITH(
+      read_npy_header(
+          npy_file(folder, "{'descr': [('i', '<i2'), ('q', '<i2')], 'fortran_order': False}", {})),
+      Catch::Contains("descr = [('i', '<i2'), ('q',: expected one of"));
   CHECK(with("{'descr': '<f4', 'fortran_order': False, 'shape': (1,)}",
              std::string("\x00\x00\xc0\x7f", 4)) == "E-NONFINITE");
   CHECK(with("{}") == "E-UNSUPPORTED");
