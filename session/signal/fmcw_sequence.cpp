@@ -126,7 +126,11 @@ class FmcwRun {
  private:
   std::string resolved_radar_toml() const {
     const signal::Waveform& waveform = radar_.waveform;
-    return radar_toml(settings_.radar, radar_.waveform_name,
+    FmcwSettings told = settings_.radar;
+    // Whoever reads the samples again has no sensor, and another last cell gives other detections.
+    if (radar_.maps && !told.most_range_m)
+      told.most_range_m = scene_.description.sensor.range.maximum_m();
+    return radar_toml(told, radar_.waveform_name,
                       {waveform.centre_frequency_Hz,
                        waveform.kind == signal::WaveformKind::pulsed ? 0.0 : waveform.bandwidth_Hz,
                        radar_.noise_figure, radar_.maps ? waveform.sample_rate_Hz[0] : 0.0});

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "session/signal/radar_file.h"
 #include "tests/scenes/built_scene.h"
 
 using namespace fanbeam;
@@ -45,5 +46,10 @@ TEST_CASE("A sequence at signal level has the paths of its frames, and says wher
   CHECK(std::filesystem::exists(sequence.places[0].path / "00000.npy"));
   CHECK(sequence.places[1].path == out.path() / "run" / "run.json");
   CHECK(std::filesystem::exists(sequence.places[1].path));
-  CHECK(std::filesystem::exists(out.path() / "run" / "radar.toml"));
+  // Read again without the scene, the samples have maps of the same cells: its sensor ends at 151 m, they at 240 m.
+  const session::FmcwRadar made = session::fmcw_radar(settings.radar, scene->description.sensor);
+  const session::FmcwRadar again =
+      session::fmcw_radar(session::radar_settings(out.path() / "run" / "radar.toml"));
+  CHECK(made.detection.transform.kept_range_cells < signal::samples_per_segment(again.waveform, 0));
+  CHECK(again.detection.transform.kept_range_cells == made.detection.transform.kept_range_cells);
 }
