@@ -13,7 +13,8 @@
 //                 phase_noise_offsets_kHz, rising, above 0 to 1e9, with phase_noise_dBc_per_Hz,
 //                 -300 to 60; adc_bits, 0 to 24; adc_full_scale_dBm, +-300
 //   [samples]     of recorded samples (sample_file.h): axes, "channel, chirp, sample" and the like;
-//                 scale_sqrtW, 1e-30 to 1e9, default 1; conjugate; channel_gain_dB, +-60, and
+//                 scale_sqrtW, 1e-30 to 1e9, default 1; conjugate, of mixers that give received minus
+//                 transmitted, of rising chirps alone; channel_gain_dB, +-60, and
 //                 channel_phase_deg, +-360, one for every channel, known from calibration: taken off
 //   [processing]  range_window, doppler_window, angle_window: "taylor:35" and the like (window.h);
 //                 mitigation "none" | "zero" | "interpolate" of other radars' chirps (mitigation.h), with

@@ -8,7 +8,9 @@
 // The default, "channel, chirp, sample", is what product beat writes, a frame a file; with a fourth axis
 // in front frames follow each other in one file. Types <c8, <c16, and <f4, <f8, <i2 for real samples.
 // Values times `scale_sqrtW` are square roots of watts at a receiver's port: it changes the powers that
-// are told, never what is found. `conjugate` is for receivers whose beat falls with range.
+// are told, never what is found. `conjugate` is for mixers that give received minus
+// transmitted, where the beat of rising chirps falls with range. Falling chirps cannot be read: conjugated or real, they
+// have the sign of speeds and azimuths wrong.
 #pragma once
 
 #include <complex>
