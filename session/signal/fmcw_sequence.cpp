@@ -37,8 +37,9 @@ std::set<std::string> chosen_products(const std::set<std::string>& asked, const 
   if (asked.empty()) return {"range-doppler", "range-azimuth", "top-view", "detections"};
   for (const std::string& name : asked)
     if (name != "beat" && name != kScanProduct && !radar.maps)
-      core::throw_input_error(core::ErrorClass::unsupported, "--products", "\"" + name + "\"",
-                              "beat or bscope: maps and detections need a chirp sequence");
+      core::throw_input_error(
+          core::ErrorClass::unsupported, "--products", "\"" + name + "\"",
+          "beat or bscope: maps and detections need a chirp sequence, of 2 chirps or more");
   return asked;
 }
 
@@ -130,10 +131,11 @@ class FmcwRun {
     // Whoever reads the samples again has no sensor, and another last cell gives other detections.
     if (radar_.maps && !told.most_range_m)
       told.most_range_m = scene_.description.sensor.range.maximum_m();
-    return radar_toml(told, radar_.waveform_name,
-                      {waveform.centre_frequency_Hz,
-                       waveform.kind == signal::WaveformKind::pulsed ? 0.0 : waveform.bandwidth_Hz,
-                       radar_.noise_figure, radar_.maps ? waveform.sample_rate_Hz[0] : 0.0});
+    return radar_toml(
+        told, radar_.waveform_name,
+        {waveform.centre_frequency_Hz,
+         waveform.kind == signal::WaveformKind::pulsed ? 0.0 : waveform.bandwidth_Hz,
+         radar_.noise_figure, is_sequence(waveform.kind) ? waveform.sample_rate_Hz[0] : 0.0});
   }
 
   // What a frame refuses comes before anything is there.

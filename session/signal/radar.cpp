@@ -26,10 +26,6 @@ constexpr int kAngleCells = 64;
 
 constexpr double kAutomotiveFrom_Hz = 70e9, kAutomotiveTo_Hz = 82e9;
 
-bool is_sequence(WaveformKind kind) {
-  return kind == WaveformKind::chirp_sequence || kind == WaveformKind::two_stage;
-}
-
 std::size_t number_of(std::string_view option) {
   for (std::size_t i = 0; i < kWaveformNumbers.size(); ++i)
     if (kWaveformNumbers[i].option == option) return i;
@@ -160,7 +156,6 @@ void prepare_maps(const FmcwSettings& options, const Front& front, FmcwRadar& ra
   const double fs_Hz = radar.waveform.sample_rate_Hz[0];
   // Real samples hold every range twice.
   const int whole = options.real ? samples / 2 : samples;
-  if (chirps < 2) core::throw_input_error(core::ErrorClass::range, "--chirps", chirps, "2 or more");
   if (whole < 2)
     core::throw_input_error(core::ErrorClass::range, "--sample-rate",
                             fmt::format("{} in a ramp", samples),
@@ -203,6 +198,10 @@ void prepare_maps(const FmcwSettings& options, const Front& front, FmcwRadar& ra
 }
 
 }  // namespace
+
+bool is_sequence(WaveformKind kind) {
+  return kind == WaveformKind::chirp_sequence || kind == WaveformKind::two_stage;
+}
 
 std::string waveform_name(const FmcwSettings& options, const sensors::Sensor& sensor) {
   if (!options.waveform.empty()) return options.waveform;
@@ -259,7 +258,9 @@ FmcwRadar made(const FmcwSettings& options, const std::string& name, const Front
   if (options.unfold && radar.array.slots() == 1)
     core::throw_input_error(core::ErrorClass::unsupported, "--unfold", "true",
                             "two transmitters or more that take turns: their phases tell the fold");
-  radar.maps = is_sequence(radar.waveform.kind);
+  radar.maps =
+      is_sequence(radar.waveform.kind) && signal::stage_segments(radar.waveform, 0).size() >
+                                              static_cast<std::size_t>(radar.array.slots());
   if (radar.maps) prepare_maps(options, front, radar);
   return radar;
 }
@@ -307,8 +308,9 @@ FmcwRadar fmcw_radar(const FmcwSettings& options) {
 
 void check_has_maps(const FmcwRadar& radar) {
   if (!radar.maps)
-    core::throw_input_error(core::ErrorClass::unsupported, "waveform.kind", radar.waveform_name,
-                            "a chirp sequence: the other kinds have no maps and no detections");
+    core::throw_input_error(
+        core::ErrorClass::unsupported, "waveform.kind", radar.waveform_name,
+        "a chirp sequence, of 2 chirps or more: nothing else has maps and detections");
 }
 
 void check_detects(const FmcwRadar& radar) {

@@ -20,7 +20,7 @@ struct FmcwRadar {
   double pitch_m = 0.0;  // of a line; else half a wavelength
   bool line = true;      // virtual elements in order at one pitch
   double noise_figure = 1.0;
-  // Of the chirp sequence in stage 0; nothing of it is valid where `maps` is false.
+  // Of the chirp sequence in stage 0, of two chirps or more; nothing of it is valid where `maps` is false.
   bool maps = false;
   signal::CubeTiming timing;
   double middle_s = 0.0;  // of its chirps, on the waveform's clock: detections have the range there
@@ -34,6 +34,9 @@ struct FmcwRadar {
   // at the negative beat.
   double power_scale = 1.0;
 };
+
+// Whether stage 0 of this kind is a chirp sequence.
+bool is_sequence(signal::WaveformKind kind);
 
 // Which kind of waveform the options mean for this sensor: "automotive-76ghz" from 70 to 82 GHz,
 // else "chirp-sequence", unless one is named.

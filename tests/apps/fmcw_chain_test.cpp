@@ -226,10 +226,9 @@ TEST_CASE("A ramp with too few samples for ranges is told as that, not as too fe
   const sensors::Sensor sensor = automotive();
   FmcwSettings options;
   options.waveform = "chirp-sequence";
-  const auto told = [&](double rate_MHz, double chirps) -> std::string {
+  const auto told = [&](double rate_MHz) -> std::string {
     options.numbers[2] = rate_MHz;
     options.numbers[8] = 0.1;  // us
-    options.numbers[11] = chirps;
     try {
       fmcw_radar(options, sensor);
     } catch (const core::InputError& error) {
@@ -238,13 +237,28 @@ TEST_CASE("A ramp with too few samples for ranges is told as that, not as too fe
     }
     return "taken";
   };
-  CHECK(told(10.0, 256.0) == "--sample-rate = 1 in a ramp: 2 samples or more");
-  CHECK(told(10.0, 1.0) == "--chirps = 1: 2 or more");
-  CHECK(told(20.0, 256.0) == "taken");
+  CHECK(told(10.0) == "--sample-rate = 1 in a ramp: 2 samples or more");
+  CHECK(told(20.0) == "taken");
   // Real ones hold every range twice.
   options.real = true;
-  CHECK(told(30.0, 256.0) == "--sample-rate = 3 in a ramp: 4 samples or more");
-  CHECK(told(40.0, 256.0) == "taken");
+  CHECK(told(30.0) == "--sample-rate = 3 in a ramp: 4 samples or more");
+  CHECK(told(40.0) == "taken");
+}
+
+TEST_CASE("One chirp has samples, and no maps or detections", "[fmcw]") {
+  const sensors::Sensor sensor = automotive();
+  FmcwSettings options;
+  options.numbers[11] = 1.0;
+  const FmcwRadar radar = fmcw_radar(options, sensor);
+  CHECK_FALSE(radar.maps);
+  CHECK_THROWS_WITH(check_has_maps(radar), Catch::Contains("2 chirps or more"));
+  const FmcwFrame frame = fmcw_frame(radar, {}, 0, options, {"beat"});
+  REQUIRE(frame.beats.size() == 1);
+  CHECK(frame.beats[0].shape.channels == 12);
+  CHECK(frame.beats[0].shape.chirps == 1);
+  CHECK_FALSE(frame.found);
+  options.numbers[11] = 2.0;
+  CHECK(fmcw_radar(options, sensor).maps);
 }
 
 TEST_CASE("False alarms are as many as asked for, in turn and at once, by every detector",

@@ -199,8 +199,9 @@ std::set<std::string> chosen_products(const std::optional<std::set<std::string>>
     return radar.maps ? std::set<std::string>{"beat", "detections"} : std::set<std::string>{"beat"};
   for (const std::string& name : *asked)
     if (name != "beat" && !radar.maps)
-      core::throw_input_error(core::ErrorClass::unsupported, "want", "\"" + name + "\"",
-                              "beat: maps and detections need a chirp sequence");
+      core::throw_input_error(
+          core::ErrorClass::unsupported, "want", "\"" + name + "\"",
+          "beat: maps and detections need a chirp sequence, of 2 chirps or more");
   return *asked;
 }
 
