@@ -4,10 +4,12 @@
 #include <cmath>
 
 #include "core/constants.h"
+#include "core/decibel.h"
 #include "core/errors.h"
 #include "core/random.h"
 #include "signal/angle/angle_peak.h"
 #include "signal/angle/plane_wave.h"
+#include "signal/detection/cfar_calibration.h"
 #include "signal/detection/map_peaks.h"
 #include "signal/receiver/link_budget.h"
 #include "signal/receiver/receiver_noise.h"
@@ -22,6 +24,7 @@ namespace fanbeam::tracking {
 namespace {
 
 constexpr double kFalseAlarm = 1e-7;
+constexpr double kSideLobes_dB = 60.0;
 constexpr double kMostSpeed_mps = 70.0;
 // azimuth_peak steps over a quarter of a beamwidth at most, up to here.
 constexpr double kWidestArray_wavelengths = 1250.0;
@@ -63,6 +66,39 @@ std::vector<signal::ScatterPath> paths_of(const core::HighwayScenario& scenario,
     paths.push_back(path);
   }
   return paths;
+}
+
+// Along range, of cells that are sums over the channels of an array.
+signal::CfarSettings detector(const signal::Window& window, int samples, int channels) {
+  signal::CfarSettings cfar = {.kind = signal::CfarKind::ordered_statistic,
+                               .design_probability = kFalseAlarm,
+                               .along_columns = {3, 6, false}};
+  const signal::CfarCalibration calibration =
+      signal::calibrated_cfar(cfar, {signal::window_weights(window, samples), samples, {}, 0},
+                              std::min(channels, signal::kMostLooks));
+  if (!calibration.covered())
+    core::throw_input_error(core::ErrorClass::range, "samples of a coarse chirp", samples,
+                            "more, for cells of noise around a target's");
+  cfar.design_probability = calibration.design_probability;
+  cfar.mean_estimate = calibration.mean_estimate;
+  return cfar;
+}
+
+// Of every range, over all speeds.
+std::vector<double> strongest_of_ranges_W(const signal::PowerMap& map) {
+  std::vector<double> strongest(static_cast<std::size_t>(map.columns), 0.0);
+  for (int row = 0; row < map.rows; ++row)
+    for (int column = 0; column < map.columns; ++column) {
+      double& most_W = strongest[static_cast<std::size_t>(column)];
+      most_W = std::max(most_W, map.at(row, column));
+    }
+  return strongest;
+}
+
+// Side lobes of a strong echo lie at all speeds of its range, of which the reference cells, at other ranges, know nothing.
+bool over_side_lobes(const signal::CfarCell& cell, double strongest_W) {
+  const double side_W = core::power_from_dB(-kSideLobes_dB) * strongest_W;
+  return cell.margin * cell.background_W > cell.background_W + side_W;
 }
 
 // Of what neighbours and noise leave beside a wave: shares of its energy.
@@ -108,12 +144,10 @@ SampledRadar::SampledRadar(const core::HighwayRadar& radar) : radar_(radar) {
                                      static_cast<int>(chirps.size()));
   const double cell_m = core::kSpeedOfLight_mps / (2.0 * radar.bandwidth_Hz);
   transform_.range_window = transform_.doppler_window = {
-      .kind = signal::WindowKind::chebyshev, .level_dB = 60.0, .symmetric = true};
+      .kind = signal::WindowKind::chebyshev, .level_dB = kSideLobes_dB, .symmetric = true};
   transform_.kept_range_cells =
       std::clamp(static_cast<int>(std::ceil(1.02 * radar.most_range_m / cell_m)), 2, samples);
-  cfar_ = {.kind = signal::CfarKind::ordered_statistic,
-           .design_probability = kFalseAlarm,
-           .along_columns = {3, 6, false}};
+  cfar_ = detector(transform_.range_window, samples, radar.array_elements);
 }
 
 bool SampledRadar::shows(double range_m, double radial_speed_mps) const {
@@ -136,9 +170,12 @@ std::vector<SampledRadar::Coarse> SampledRadar::coarse_of(const signal::FloatCub
   signal::FloatCube cube;
   signal::range_doppler(samples, transform_, cube);
   const signal::PowerMap map = signal::range_doppler_map(cube, signal::Projection::sum);
+  const std::vector<double> strongest = strongest_of_ranges_W(map);
   const auto elements_m = signal::virtual_elements_m(array_);
   std::vector<Coarse> result;
   for (const auto& peak : signal::map_peaks(map, signal::cfar_detections(map, cfar_), true)) {
+    if (!over_side_lobes(peak.cell, strongest[static_cast<std::size_t>(peak.cell.column)]))
+      continue;
     std::vector<std::complex<double>> snapshot;
     for (int channel = 0; channel < cube.shape.channels; ++channel)
       snapshot.emplace_back(cube.at(channel, peak.cell.row, peak.cell.column));

@@ -5,7 +5,8 @@
 //
 // Waveform: two stages, as HighwayWaveforms has them; the default: a chirp sequence of 256 ramps of 20
 // us, at 20 MHz, gives range, speed and azimuth by Chebyshev windows of -60 dB, an ordered-statistic
-// detector along range (1e-7 per cell) and the one or two plane waves of a cell (directions.h). A
+// detector along range (1e-7 per cell, calibrated for sums over the channels, above noise and the side
+// lobes of the strongest echo of that range) and the one or two plane waves of a cell (directions.h). A
 // triangle of 2 ms ramps, at 500 kHz, gives the beats (triangle_beats.h), each with the direction that
 // its amplitudes over the channels have. A coarse detection takes the pair of beats that fits best
 // within four standard deviations (0.3 m, 0.3 m/s; 6 mrad and noise between the directions of its beats
@@ -29,7 +30,7 @@
 // the echo of one that comes through the radar within a frame.
 // Every draw is a function of seed, run, frame and sample; the same bits for any number of threads.
 // Cost: six targets some 60 ms of processor time, a fifth of it for the receiver noise of 1.2
-// million samples.
+// million samples; the detector's calibration some 0.3 s once, when the radar is made.
 #pragma once
 
 #include <cstdint>
@@ -48,8 +49,8 @@ namespace fanbeam::tracking {
 
 class SampledRadar {
  public:
-  // Throws InputError: E-RANGE for what the waveform or the detector refuses, E-LIMIT for an array
-  // longer than 1250 wavelengths.
+  // Throws InputError: E-RANGE for what the waveform or the detector refuses, and for chirps of so few samples that the
+  // cells around one tell no noise; E-LIMIT for an array longer than 1250 wavelengths.
   explicit SampledRadar(const core::HighwayRadar& radar);
 
   std::vector<RadarMeasurement> measure(const core::HighwayScenario& scenario, std::uint64_t seed,
