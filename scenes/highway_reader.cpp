@@ -330,11 +330,14 @@ void read_waveform(const JsonNode& node, NamedWaveform& named) {
     result.triangle_ramp_s = time_of(node, "ramp_s", result.triangle_ramp_s);
   } else if (type == "triangle-pair") {
     const std::vector<double> ramps = node.required("ramp_s").numbers({1e-9, 10.0}, 2);
-    if (ramps.size() == 2)
-      result.two_slopes_ramp_s = {ramps[0], ramps[1]};
-    else
+    if (ramps.size() != 2)
       refuse(node, "ramp_s", ErrorClass::parse, std::to_string(ramps.size()) + " entries",
              "two numbers");
+    else if (ramps[0] == ramps[1])
+      refuse(node, "ramp_s", ErrorClass::range, core::number_text(ramps[1]) + " twice",
+             "two times: the second slope tells which beats belong together");
+    else
+      result.two_slopes_ramp_s = {ramps[0], ramps[1]};
   } else if (type == "two-stage") {
     read_two_stages(node, result);
   } else if (type == "up-flat-down") {

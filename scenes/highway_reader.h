@@ -16,8 +16,8 @@
 // them all.
 // All problems are told together, each with its JSON pointer ("/scenarios/1/targets/0/rcs_m2"): E-PARSE
 // for what is no JSON or of the wrong type, E-REF for a member that is missing; E-NONFINITE and E-RANGE
-// for values, a file without scenarios, fractions where a whole number is asked for and segments below
-// a nanosecond included, for truth that a target's motion contradicts (0.1 m, 0.1 m/s, 2 mrad), and for
+// for values, a file without scenarios, fractions where a whole number is asked for, segments below
+// a nanosecond and a pair of equal ramps included, for truth that a target's motion contradicts (0.1 m, 0.1 m/s, 2 mrad), and for
 // a target's id that is empty or holds a comma, a quote or a control character; E-REF also for a member
 // that the format, or this type of motion, segment or waveform, does not have, with those like it, for
 // truth of an unknown target, and for a scenario, target or truth table whose name was used before;

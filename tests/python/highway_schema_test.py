@@ -65,6 +65,8 @@ CHANGES = {
     "waveforms": (change(["waveforms"], {"tri": {"type": "triangle", "ramp_s": 1e-3}}), True),
     "unknown waveform": (change(["waveforms"], {"tri": {"type": "sawtooth"}}), False),
     "one slope of two": (change(["waveforms"], {"two": {"type": "triangle-pair", "ramp_s": [2e-3]}}), False),
+    "two slopes": (change(["waveforms"], {"two": {"type": "triangle-pair", "ramp_s": [3e-3, 2e-3]}}), True),
+    "one slope twice": (change(["waveforms"], {"two": {"type": "triangle-pair", "ramp_s": [2e-3, 2e-3]}}), False),
     "a ramp of a coarse stage": (
         change(["waveforms"], {"two": {"type": "two-stage", "coarse": {"ramp_s": 1}, "fine": {}}}), False),
     "a rate of two stages": (

@@ -342,6 +342,8 @@ TEST_CASE("What another kind of waveform or motion has is refused, not passed ov
   check_refused(
       with_waveforms(R"("w": {"type": "two-stage", "ramp_s": 0.002, "coarse": {}, "fine": {}})"),
       core::ErrorClass::ref, "/waveforms/w/ramp_s");
+  check_refused(with_waveforms(R"("w": {"type": "triangle-pair", "ramp_s": [0.003, 0.003]})"),
+                core::ErrorClass::range, "/waveforms/w/ramp_s");
   // Its stages have rates of their own, and no study averages buffers of it.
   for (const char* key : {"sample_rate_hz", "ramps_per_buffer"})
     check_refused(with_waveforms(R"("w": {"type": "two-stage", "coarse": {}, "fine": {}, ")" +

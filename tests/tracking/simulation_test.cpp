@@ -187,6 +187,24 @@ TEST_CASE("A target is measured in every frame but those of its gap, its neighbo
   }
 }
 
+// The default second slope takes 3 ms.
+TEST_CASE("A ramp may take as long as the second slope of a waveform that is not used",
+          "[highway]") {
+  core::HighwayRadar radar = highway_radar();
+  core::HighwayWaveforms& waveforms = radar.waveforms;
+  waveforms.triangle_ramp_s = waveforms.fine_ramp_s = waveforms.coded_ramp_s =
+      waveforms.two_slopes_ramp_s[1];
+  const core::HighwayScenario scenario = one_stopped_car();
+  for (const Scheme scheme :
+       {Scheme::triangle, Scheme::sorted_triangle, Scheme::two_stage, Scheme::coded}) {
+    SimulationSettings settings;
+    settings.scheme = scheme;
+    INFO(length_of(scheme, waveforms) << " s");
+    const auto seen = simulated_frame(scenario, radar, settings, 9, 0, 3);
+    CHECK(times_measured(scenario, 0, 3, seen) == 1);
+  }
+}
+
 TEST_CASE("Merged beats say how wrong they may be, lone ones that they are right", "[highway]") {
   for (const Scheme scheme : {Scheme::triangle, Scheme::two_stage}) {
     SimulationSettings settings;

@@ -242,13 +242,11 @@ std::vector<RadarMeasurement> simulated_frame(const core::HighwayScenario& scena
   radar.ramp_s = ramp_of(settings.scheme, given.waveforms);
   const Draws draws(seed, run, frame);
   const std::vector<Seen> targets = seen_targets(scenario, radar, settings, draws, frame);
-  signal::TwoSlopesParameters parameters;
-  parameters.first.frequency_Hz = radar.centre_frequency_Hz;
-  parameters.first.bandwidth_Hz = radar.bandwidth_Hz;
-  parameters.first.ramp_s = radar.ramp_s;
-  parameters.second_ramp_s = radar.waveforms.two_slopes_ramp_s[1];
-  const signal::Waveform waveform = signal::two_slopes(parameters);
-  const signal::TriangleModel first = signal::triangle_model(waveform, 0);
+  signal::TriangleParameters ramps;
+  ramps.frequency_Hz = radar.centre_frequency_Hz;
+  ramps.bandwidth_Hz = radar.bandwidth_Hz;
+  ramps.ramp_s = radar.ramp_s;
+  const signal::TriangleModel first = signal::triangle_model(signal::triangle(ramps), 0);
   const signal::PairingLimits limits{0.0, 1.1 * radar.most_range_m, settings.most_speed_mps};
   const bool by_direction =
       settings.scheme == Scheme::two_stage || settings.scheme == Scheme::coded;
@@ -266,7 +264,8 @@ std::vector<RadarMeasurement> simulated_frame(const core::HighwayScenario& scena
     } else if (settings.scheme == Scheme::sorted_triangle) {
       places = signal::pair_sorted(first, peaks.up.Hz, peaks.down.Hz, limits);
     } else {
-      const signal::TriangleModel second = signal::triangle_model(waveform, 1);
+      const signal::TriangleModel second = signal::triangle_model(
+          signal::two_slopes({ramps, radar.waveforms.two_slopes_ramp_s[1]}), 1);
       const double between_s = second.turnaround_s - first.turnaround_s;
       const RampPeaks later = peaks_of(second, between_s, targets, cell, radar.ramp_s, draws, 2);
       places = signal::pair_two_slopes({first, peaks.up.Hz, peaks.down.Hz},
