@@ -276,7 +276,13 @@ FmcwRadar fmcw_radar(const FmcwSettings& options, const sensors::Sensor& sensor)
       core::throw_input_error(core::ErrorClass::range, "waveform.frequency_GHz", *told,
                               "the scene's sensor's " +
                                   core::number_text(sensor.waveform.frequency_Hz * 1e-9) + " GHz");
-  return made(options, waveform_name(options, sensor),
+  const std::string name = waveform_name(options, sensor);
+  // Samples of its chirps alone, as recordings are, may be of transmitters in turn.
+  const double slots = options.numbers[number_of("--slots")].value_or(1.0);
+  if (kind_of(name) == WaveformKind::two_stage && slots != 1.0)
+    core::throw_input_error(core::ErrorClass::unsupported, "--slots", slots,
+                            "1 with two-stage, in whose triangle all transmitters send at once");
+  return made(options, name,
               {sensor.waveform.frequency_Hz, sensor.waveform.bandwidth_Hz,
                noise_figure_of(options, sensor), sensor.range.maximum_m()});
 }

@@ -244,6 +244,9 @@ TEST_CASE("fmcw refuses what it cannot use", "[fmcw]") {
   CHECK(code("--waveform sawteeth") == 2);
   CHECK(code("--products maps") == 2);
   CHECK(code("--waveform chirp-sequence --slots 2") == 2);
+  const auto staged = tests::run_fanbeam(command + "--waveform two-stage --slots 3");
+  CHECK(staged.exit_code == 2);
+  CHECK(staged.output.find("--slots = 3: expected 1 with two-stage") != std::string::npos);
   CHECK(code("--frames 3") == 2);
   // What would do nothing in silence: no turns that tell a fold, no other radar, too few channels for sub-arrays.
   CHECK(code("--unfold --slots 1") == 2);
