@@ -31,7 +31,8 @@ void print(const core::HighwayScenario& scenario, const session::ScenarioTracks&
   if (tracks.beyond > 0)
     fmt::print(
         "     W-FOLDED: {} times a target in view is beyond what these samples show: farther than "
-        "their range cells, above {:g} m/s, or of a beat over half the triangle's sample rate\n",
+        "their range cells, above {:g} m/s, of a beat over half the triangle's sample rate, or at "
+        "an azimuth that elements so far apart do not tell from another\n",
         tracks.beyond, tracking::SampledRadar::most_speed_mps());
   for (const tracking::Crossing& one : tracks.crossings)
     fmt::print("     tracks {} and {} {} at {:.2f} s, exchanged with probability {:.2g}\n",

@@ -117,6 +117,9 @@ FmcwFrame fmcw_frame(const FmcwRadar& radar, const std::vector<signal::ScatterPa
   const auto policy =
       options.refuse_folding ? signal::FoldingPolicy::refuse : signal::FoldingPolicy::count;
   frame.warnings = signal::folding_warnings(signal::count_folding(radar.waveform, paths, policy));
+  const std::vector<core::Problem> azimuths =
+      signal::folded_azimuths(radar.array, radar.waveform.wavelength_m(), paths, policy);
+  frame.warnings.insert(frame.warnings.end(), azimuths.begin(), azimuths.end());
   const SamplesShown shown = shown_by(radar, options, products);
   const double echo_W = sum_W(paths);
   const std::vector<double> delays = delays_s(paths);

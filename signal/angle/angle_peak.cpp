@@ -88,9 +88,9 @@ double climbed(const Function& f, double low, double high) {
   return 0.5 * (low + high);
 }
 
-double angle_of_step(int step, int steps) {
+double angle_of_step(int step, int steps, double widest = 1.0) {
   if (steps == 0) return 0.0;
-  return std::asin(std::clamp(2.0 * step / steps - 1.0, -1.0, 1.0));
+  return std::asin(std::clamp(widest * (2.0 * step / steps - 1.0), -1.0, 1.0));
 }
 
 }  // namespace
@@ -145,10 +145,13 @@ AnglePeak azimuth_peak(const Snapshot& snapshot, const std::vector<glm::dvec3>& 
   check_input(beam);
   if (!(beam.aperture_m() > 0.0)) return {0.0, elevation_rad, beam.power(0.0, elevation_rad)};
   const int steps = beam.scan_steps();
+  const double widest =
+      std::min(1.0, unambiguous_sine(elements_m, wavelength_m) / std::cos(elevation_rad));
+  const auto angle_rad = [&](int step) { return angle_of_step(step, steps, widest); };
   int best = 0;
   double best_power = -1.0;
   for (int step = 0; step <= steps; ++step) {
-    const double power = beam.power(angle_of_step(step, steps), elevation_rad);
+    const double power = beam.power(angle_rad(step), elevation_rad);
     if (power > best_power) {
       best_power = power;
       best = step;
@@ -156,9 +159,13 @@ AnglePeak azimuth_peak(const Snapshot& snapshot, const std::vector<glm::dvec3>& 
   }
   AnglePeak peak;
   peak.elevation_rad = elevation_rad;
-  peak.azimuth_rad = climbed(
-      [&](double azimuth_rad) { return beam.power(azimuth_rad, elevation_rad); },
-      angle_of_step(std::max(0, best - 1), steps), angle_of_step(std::min(steps, best + 1), steps));
+  peak.azimuth_rad =
+      climbed([&](double azimuth_rad) { return beam.power(azimuth_rad, elevation_rad); },
+              angle_rad(best - 1), angle_rad(best + 1));
+  // A peak beside one end is climbed from the other, which looks the same.
+  const double sine = std::sin(peak.azimuth_rad);
+  if (std::abs(sine) > widest)
+    peak.azimuth_rad = std::asin(sine - std::copysign(2.0 * widest, sine));
   peak.power = beam.power(peak.azimuth_rad, elevation_rad);
   return peak;
 }

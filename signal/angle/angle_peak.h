@@ -6,7 +6,8 @@
 // half a wavelength and signal-to-noise ratio rho per element, above the threshold of about 10 dB
 // in N rho (P. Stoica, A. Nehorai, IEEE Trans. ASSP-37, 1989). Two sources closer than a beamwidth
 // merge: see signal/angle/spatial_spectrum.h. Azimuths are searched from -pi/2 to pi/2, at a given
-// elevation.
+// elevation; of a uniform line at more than half a wavelength, up to the ambiguity
+// (unambiguous_sine of signal/waveform/array.h): farther out every direction looks like one of these, which is told.
 //
 // Elements that are all in one place tell no direction, and those above each other no azimuth: 0.
 //

@@ -10,6 +10,7 @@
 #include "signal/angle/plane_wave.h"
 #include "signal/angle/spatial_spectrum.h"
 #include "signal/checks_private.h"
+#include "signal/waveform/array.h"
 
 namespace fanbeam::signal {
 namespace {
@@ -33,12 +34,13 @@ double energy(const Snapshot& snapshot) {
   return sum;
 }
 
-// Even in the sine.
+// Even in the sine, over what the line tells apart.
 std::vector<double> grid_rad(const Line& line) {
+  const double widest = unambiguous_sine(line.elements_m, line.wavelength_m);
   const int steps = kBeamsOfGrid * static_cast<int>(line.elements_m.size());
   std::vector<double> azimuths;
   for (int i = 0; i <= steps; ++i)
-    azimuths.push_back(std::asin(std::clamp(2.0 * i / steps - 1.0, -1.0, 1.0)));
+    azimuths.push_back(std::asin(widest * std::clamp(2.0 * i / steps - 1.0, -1.0, 1.0)));
   return azimuths;
 }
 
@@ -147,16 +149,6 @@ std::optional<AngleMethod> angle_method(std::string_view text) {
        {AngleMethod::beamforming, AngleMethod::capon, AngleMethod::music})
     if (name(method) == text) return method;
   return std::nullopt;
-}
-
-bool is_uniform_line(const std::vector<glm::dvec3>& elements_m) {
-  if (elements_m.size() < 2) return true;
-  const glm::dvec3 pitch_m = elements_m[1] - elements_m[0];
-  const double length_m = glm::length(pitch_m);
-  if (!(length_m > 0.0)) return false;
-  for (std::size_t i = 2; i < elements_m.size(); ++i)
-    if (glm::length(elements_m[i] - elements_m[i - 1] - pitch_m) > 1e-6 * length_m) return false;
-  return true;
 }
 
 std::vector<SourceDirection> source_directions(const Snapshot& snapshot,

@@ -48,7 +48,4 @@ std::vector<SourceDirection> source_directions(const std::vector<std::complex<do
                                                double wavelength_m, AngleMethod method,
                                                double noise_W);
 
-// Whether the elements stand on a line at one pitch, in order.
-bool is_uniform_line(const std::vector<glm::dvec3>& elements_m);
-
 }  // namespace fanbeam::signal

@@ -1,6 +1,8 @@
 #include "signal/waveform/array.h"
 
 #include <cmath>
+#include <cstddef>
+#include <glm/geometric.hpp>
 #include <string>
 
 #include "signal/checks_private.h"
@@ -44,6 +46,25 @@ std::vector<glm::dvec3> virtual_elements_m(const Array& array) {
     for (const glm::dvec3& receiver_m : array.receivers_m)
       elements_m.push_back(transmitter_m + receiver_m);
   return elements_m;
+}
+
+bool is_uniform_line(const std::vector<glm::dvec3>& elements_m) {
+  if (elements_m.size() < 2) return true;
+  const glm::dvec3 pitch_m = elements_m[1] - elements_m[0];
+  const double length_m = glm::length(pitch_m);
+  if (!(length_m > 0.0)) return false;
+  for (std::size_t i = 2; i < elements_m.size(); ++i)
+    if (glm::length(elements_m[i] - elements_m[i - 1] - pitch_m) > 1e-6 * length_m) return false;
+  return true;
+}
+
+double unambiguous_sine(const std::vector<glm::dvec3>& elements_m, double wavelength_m) {
+  if (elements_m.size() < 2 || !is_uniform_line(elements_m)) return 1.0;
+  const glm::dvec3 pitch_m = elements_m[1] - elements_m[0];
+  const double across_m = std::abs(pitch_m.y);
+  if (std::hypot(pitch_m.x, pitch_m.z) > 1e-6 * across_m) return 1.0;
+  const double sine = 0.5 * wavelength_m / across_m;
+  return sine < 1.0 - 1e-9 ? sine : 1.0;  // half a wavelength, rounded
 }
 
 void check(const Array& array) {

@@ -50,6 +50,13 @@ Array line_array(int transmitters, int receivers, double pitch_m);
 // Position of every channel's virtual element.
 std::vector<glm::dvec3> virtual_elements_m(const Array& array);
 
+// Whether the elements stand on a line at one pitch, in order.
+bool is_uniform_line(const std::vector<glm::dvec3>& elements_m);
+
+// The largest |cos(elevation) sin(azimuth)| of a direction that no nearer one to boresight looks like: wavelength /
+// (2 pitch) of a uniform line across the boresight, at most 1; 1 of every other array, whatever it leaves ambiguous.
+double unambiguous_sine(const std::vector<glm::dvec3>& elements_m, double wavelength_m);
+
 // Throws InputError: no transmitter or receiver, more than 4096 channels, a position not finite.
 void check(const Array& array);
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/units.h"
 #include "signal/waveform/doppler.h"
 #include "signal/waveform/figures.h"
 
@@ -33,13 +34,18 @@ bool has_wrong_sign(const Segment& segment, const ScatterPath& path) {
   return sign * beat_Hz(segment, path.range_m, path.radial_speed_mps) < 0.0;
 }
 
-void warn(int number, int stage, const char* what, double value, const std::string& unit,
-          double reads, double span, core::ProblemList& warnings) {
+void warn(int number, const std::string& where, double value, const std::string& unit, double reads,
+          double span, core::ProblemList& warnings) {
   if (number == 0) return;
-  const std::string where = "stage " + std::to_string(stage) + " " + what;
   warnings.warning("FOLDED", {}, where, core::number_text(value) + " " + unit,
                    std::to_string(number) + " beyond " + core::number_text(span) + " " + unit +
                        "; the farthest reads " + core::number_text(reads) + " " + unit);
+}
+
+void refuse_first(const std::vector<core::Problem>& warnings) {
+  if (!warnings.empty())
+    core::throw_input_error(core::ErrorClass::range, warnings[0].field, warnings[0].value,
+                            "inside the unambiguous span: " + warnings[0].expected);
 }
 
 }  // namespace
@@ -59,26 +65,43 @@ std::vector<StageFolding> count_folding(const Waveform& waveform,
           for (const ScatterPath& path : paths)
             stages[i].negative_beats += has_wrong_sign(segment, path) ? 1 : 0;
   }
-  if (policy == FoldingPolicy::refuse) {
-    const std::vector<core::Problem> warnings = folding_warnings(stages);
-    if (!warnings.empty())
-      core::throw_input_error(core::ErrorClass::range, warnings[0].field, warnings[0].value,
-                              "inside the unambiguous span: " + warnings[0].expected);
-  }
+  if (policy == FoldingPolicy::refuse) refuse_first(folding_warnings(stages));
   return stages;
+}
+
+std::vector<core::Problem> folded_azimuths(const Array& array, double wavelength_m,
+                                           const std::vector<ScatterPath>& paths,
+                                           FoldingPolicy policy) {
+  const double most = unambiguous_sine(virtual_elements_m(array), wavelength_m);
+  if (most == 1.0) return {};
+  int number = 0;
+  double widest = 0.0, widest_rad = 0.0;
+  for (const ScatterPath& path : paths) {
+    const double sine = std::cos(path.elevation_rad) * std::sin(path.azimuth_rad);
+    if (sine < most && sine >= -most) continue;
+    ++number;
+    if (std::abs(sine) <= std::abs(widest)) continue;
+    widest = sine;
+    widest_rad = path.azimuth_rad;
+  }
+  core::ProblemList warnings;
+  warn(number, "azimuth", core::degrees(widest_rad), "deg",
+       core::degrees(std::asin(fold(widest, most))), core::degrees(std::asin(most)), warnings);
+  if (policy == FoldingPolicy::refuse) refuse_first(warnings.all());
+  return warnings.all();
 }
 
 std::vector<core::Problem> folding_warnings(const std::vector<StageFolding>& stages) {
   core::ProblemList warnings;
   for (std::size_t i = 0; i < stages.size(); ++i) {
     const StageFolding& stage = stages[i];
-    const int number = static_cast<int>(i);
-    warn(stage.folded_ranges, number, "range", stage.farthest_m, "m", stage.farthest_reads_m,
+    const std::string where = "stage " + std::to_string(i);
+    warn(stage.folded_ranges, where + " range", stage.farthest_m, "m", stage.farthest_reads_m,
          stage.unambiguous_range_m, warnings);
-    warn(stage.folded_speeds, number, "radial speed", stage.fastest_mps, "m/s",
+    warn(stage.folded_speeds, where + " radial speed", stage.fastest_mps, "m/s",
          stage.fastest_reads_mps, stage.unambiguous_speed_mps, warnings);
     if (stage.negative_beats > 0)
-      warnings.warning("FOLDED", {}, "stage " + std::to_string(number) + " beat sign",
+      warnings.warning("FOLDED", {}, where + " beat sign",
                        std::to_string(stage.negative_beats) + " beats",
                        "real samples read a negative beat as its amount");
   }

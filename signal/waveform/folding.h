@@ -3,6 +3,8 @@
 // A range beyond the unambiguous one reads as its rest (complex samples: the beat folds by the
 // sample rate; flat stages: the phase by a turn), a speed as its rest in [-vmax, vmax), and with
 // real samples a negative beat reads as its amount.
+// Of a uniform line at more than half a wavelength an azimuth reads as the rest of its sine within half a wavelength
+// over the pitch (unambiguous_sine of array.h); of other arrays nothing is told of azimuths.
 // Ranges and speeds are those at the clock's zero; what a target moves in one frame is neglected.
 #pragma once
 
@@ -10,6 +12,7 @@
 
 #include "core/errors.h"
 #include "signal/scatter_path.h"
+#include "signal/waveform/array.h"
 #include "signal/waveform/waveform.h"
 
 namespace fanbeam::signal {
@@ -29,6 +32,11 @@ struct StageFolding {
 std::vector<StageFolding> count_folding(const Waveform& waveform,
                                         const std::vector<ScatterPath>& paths,
                                         FoldingPolicy policy = FoldingPolicy::count);
+
+// The same of azimuths, as warnings: none or one.
+std::vector<core::Problem> folded_azimuths(const Array& array, double wavelength_m,
+                                           const std::vector<ScatterPath>& paths,
+                                           FoldingPolicy policy = FoldingPolicy::count);
 
 // "W-FOLDED ..." for everything counted, with figures; empty when nothing folds.
 std::vector<core::Problem> folding_warnings(const std::vector<StageFolding>& stages);

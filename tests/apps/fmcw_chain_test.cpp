@@ -261,6 +261,36 @@ TEST_CASE("One chirp has samples, and no maps or detections", "[fmcw]") {
   CHECK(fmcw_radar(options, sensor).maps);
 }
 
+// Two wavelengths apart: azimuths beyond 14.5 deg look like nearer ones. Detections had the direction of any of four lobes.
+TEST_CASE("Detections of a sparse line are where its cube has them, and what folds is told",
+          "[fmcw]") {
+  FmcwSettings options;
+  options.numbers[11] = 64.0;
+  options.pitch_wavelengths = 2.0;
+  signal::ScatterPath path;
+  path.range_m = 40.0;
+  path.amplitude_sqrtW = 1e-6;
+  for (const auto method : {signal::AngleMethod::beamforming, signal::AngleMethod::music}) {
+    options.angle_method = method;
+    const FmcwRadar radar = fmcw_radar(options, automotive());
+    for (const double azimuth_rad : {-0.2, 0.0, 0.173, 0.4}) {
+      path.azimuth_rad = azimuth_rad;
+      const FmcwFrame frame = fmcw_frame(radar, {path}, 0, options, {"detections"});
+      INFO(signal::name(method) << ", " << azimuth_rad);
+      REQUIRE(frame.found->detections.size() == 1);
+      const double sine = std::remainder(std::sin(azimuth_rad), 0.5);
+      CHECK(std::sin(frame.found->detections[0].azimuth_rad) ==
+            Approx(sine).epsilon(0.0).margin(2e-3));
+      CHECK(frame.warnings.size() == (azimuth_rad > 0.3 ? 1 : 0));
+    }
+    CHECK(to_string(fmcw_frame(radar, {path}, 0, options, {"detections"}).warnings.at(0))
+              .find("W-FOLDED azimuth") != std::string::npos);
+  }
+  options.refuse_folding = true;
+  CHECK_THROWS_AS(fmcw_frame(fmcw_radar(options, automotive()), {path}, 0, options, {"detections"}),
+                  core::InputError);
+}
+
 TEST_CASE("False alarms are as many as asked for, in turn and at once, by every detector",
           "[fmcw]") {
   const sensors::Sensor sensor = automotive();

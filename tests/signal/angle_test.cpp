@@ -133,6 +133,38 @@ TEST_CASE("an array with elements at several heights tells elevations apart", "[
   CHECK(std::norm(beams.at(0 * 2 + 0, 0, 0)) < 0.9F);
 }
 
+TEST_CASE("elements far apart tell the direction nearest to boresight, as the cube's cells do",
+          "[angle]") {
+  for (const double pitch : {0.6, 1.0, 2.0}) {
+    const Array line = line_array(3, 4, pitch * kWavelength_m);
+    const auto elements_m = virtual_elements_m(line);
+    const double most = unambiguous_sine(elements_m, kWavelength_m);
+    CHECK(most == Approx(0.5 / pitch).epsilon(1e-9));
+    for (int step = -49; step <= 49; ++step) {
+      const double azimuth_rad = std::asin(step / 49.05 * most);  // to a thousandth of the end
+      auto snapshot = plane_wave(line, azimuth_rad);
+      // Of lobes alike, noise makes now this one and now that one the largest.
+      for (std::size_t m = 0; m < snapshot.size(); ++m)
+        snapshot[m] += tests::noise(1e-8, m + 100 * static_cast<std::uint64_t>(step + 49), 12);
+      INFO(pitch << " wavelengths, " << degrees(azimuth_rad) << " deg");
+      CHECK(azimuth_peak(snapshot, elements_m, kWavelength_m).azimuth_rad ==
+            Approx(azimuth_rad).epsilon(0.0).margin(1e-3));
+    }
+    // Beyond, sines read as their rest.
+    const double folded = 1.2 * most - 2.0 * most;
+    if (1.2 * most < 1.0)
+      CHECK(
+          std::sin(azimuth_peak(plane_wave(line, std::asin(1.2 * most)), elements_m, kWavelength_m)
+                       .azimuth_rad) == Approx(folded).epsilon(0.0).margin(1e-6));
+  }
+  CHECK(unambiguous_sine(virtual_elements_m(half_wave_line(3, 4)), kWavelength_m) == 1.0);
+  CHECK(unambiguous_sine({glm::dvec3(0.0)}, kWavelength_m) == 1.0);
+  // One above the other, and out of order: no uniform line across.
+  CHECK(unambiguous_sine({{0.0, 0.0, 0.0}, {0.0, 0.0, 9.0}}, kWavelength_m) == 1.0);
+  CHECK(unambiguous_sine({{0.0, 0.0, 0.0}, {0.0, 9.0, 0.0}, {0.0, 3.0, 0.0}}, kWavelength_m) ==
+        1.0);
+}
+
 TEST_CASE("the angle of one wave reaches the Cramer-Rao bound", "[angle][statistics]") {
   const Array line = half_wave_line(3, 4);
   const auto elements_m = virtual_elements_m(line);

@@ -154,6 +154,18 @@ TEST_CASE("Ranges and speeds beyond the unambiguous are counted with what they r
   CHECK(warnings[0].code == "W-FOLDED");
   CHECK(warnings[0].expected.find("reads 10") != std::string::npos);
   CHECK_THROWS_AS(count_folding(waveform, paths, FoldingPolicy::refuse), core::InputError);
+  const double wavelength_m = waveform.wavelength_m();
+  const Array wide = line_array(3, 4, 2.0 * wavelength_m);
+  CHECK(folded_azimuths(wide, wavelength_m, paths).empty());
+  paths[1].azimuth_rad = std::asin(0.4);
+  const std::vector<core::Problem> sideways = folded_azimuths(wide, wavelength_m, paths);
+  REQUIRE(sideways.size() == 1);
+  CHECK(sideways[0].code == "W-FOLDED");
+  CHECK(sideways[0].field == "azimuth");
+  CHECK(sideways[0].expected.find("reads -5.739") != std::string::npos);  // asin(0.4 - 0.5)
+  CHECK(folded_azimuths(line_array(3, 4, 0.5 * wavelength_m), wavelength_m, paths).empty());
+  CHECK_THROWS_AS(folded_azimuths(wide, wavelength_m, paths, FoldingPolicy::refuse),
+                  core::InputError);
   paths.resize(1);
   CHECK(folding_warnings(count_folding(waveform, paths, FoldingPolicy::refuse)).empty());
 }

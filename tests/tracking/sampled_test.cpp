@@ -135,15 +135,42 @@ TEST_CASE("From samples, what folds in the fine triangle is not shown, and told 
   core::HighwayScenario scenario = one_stopped_car();
   scenario.targets = {car("A", 100.0, 0.0, kRoadSpeed_mps)};
   const SampledRadar before(steep);
-  CHECK(before.shows(100.0, 0.0));
+  CHECK(before.shows({.range_m = 100.0}));
   CHECK(before.measure(scenario, 3, 0, 0).size() == 1);
   steep.waveforms.fine_ramp_s = 0.5e-3;
   const SampledRadar radar(steep);
   CHECK(radar.measure(scenario, 3, 0, 0).empty());
-  CHECK_FALSE(radar.shows(100.0, 0.0));
-  CHECK(radar.shows(70.0, 0.0));
+  CHECK_FALSE(radar.shows({.range_m = 100.0}));
+  CHECK(radar.shows({.range_m = 70.0}));
   // Closing at 60 m/s moves both beats by 30 kHz down, which is 9 m of them.
-  CHECK_FALSE(radar.shows(70.0, -60.0));
+  CHECK_FALSE(radar.shows({.range_m = 70.0, .range_rate_mps = -60.0}));
+}
+
+// Elements a wavelength apart see what is 2 deg to the left also 75 deg to the right, as strong: which of the two was told
+// was a matter of rounding. 40 deg reads as -21 deg, and is told so.
+TEST_CASE(
+    "From samples, elements farther apart than half a wavelength tell the direction nearest to "
+    "boresight",
+    "[sampled]") {
+  core::HighwayRadar wide = highway_radar();
+  wide.array_pitch_wavelengths = 1.0;
+  const SampledRadar radar(wide);
+  for (const double azimuth_rad : {-0.035, 0.0, 0.2, 0.45}) {
+    const core::HighwayScenario scenario =
+        scene(3.0, kRoadSpeed_mps,
+              {car("A", 60.0 * std::cos(azimuth_rad), 60.0 * std::sin(azimuth_rad),
+                   kRoadSpeed_mps + 0.2)});
+    for (int frame = 0; frame < 4; ++frame) {
+      const auto truth = truth_at(scenario.targets[0], kRoadSpeed_mps, wide, frame * 0.05);
+      CHECK(radar.shows(truth));
+      const auto seen = radar.measure(scenario, 3, 0, frame);
+      INFO(azimuth_rad << " rad, frame " << frame);
+      REQUIRE(seen.size() == 1);
+      CHECK(seen[0].azimuth_rad == Approx(truth.azimuth_rad).epsilon(0.0).margin(5e-3));
+    }
+  }
+  CHECK_FALSE(radar.shows({.range_m = 60.0, .azimuth_rad = 0.7}));
+  CHECK(SampledRadar(highway_radar()).shows({.range_m = 60.0, .azimuth_rad = 0.7}));
 }
 
 // The bound told goes with the root of the power: of a steady car the same in every frame, of a Swerling 1

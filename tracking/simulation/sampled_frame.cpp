@@ -150,10 +150,12 @@ SampledRadar::SampledRadar(const core::HighwayRadar& radar) : radar_(radar) {
   cfar_ = detector(transform_.range_window, samples, radar.array_elements);
 }
 
-bool SampledRadar::shows(double range_m, double radial_speed_mps) const {
-  const signal::BeatPair beats = predict(fine_, {range_m, radial_speed_mps});
-  return range_m <= axes_.range_step_m * transform_.kept_range_cells &&
-         std::abs(radial_speed_mps) <= kMostSpeed_mps &&
+bool SampledRadar::shows(const core::HighwayTruth& truth) const {
+  const signal::BeatPair beats = predict(fine_, {truth.range_m, truth.range_rate_mps});
+  return truth.range_m <= axes_.range_step_m * transform_.kept_range_cells &&
+         std::abs(truth.range_rate_mps) <= kMostSpeed_mps &&
+         std::abs(std::sin(truth.azimuth_rad)) <=
+             signal::unambiguous_sine(signal::virtual_elements_m(array_), axes_.wavelength_m) &&
          std::max(std::abs(beats.up_Hz), std::abs(beats.down_Hz)) <
              0.5 * waveform_.sample_rate_Hz[kFine];
 }

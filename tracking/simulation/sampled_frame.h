@@ -56,8 +56,9 @@ class SampledRadar {
   std::vector<RadarMeasurement> measure(const core::HighwayScenario& scenario, std::uint64_t seed,
                                         std::uint32_t run, int frame) const;
   // Where not, a target is not measured: it is beyond the cells of range or the speed up to which folds are sought, or a
-  // beat of it beyond half the triangle's sample rate.
-  bool shows(double range_m, double radial_speed_mps) const;
+  // beat of it beyond half the triangle's sample rate; or it is in another direction than it is measured in, which of
+  // elements more than half a wavelength apart looks the same (signal/angle/angle_peak.h).
+  bool shows(const core::HighwayTruth& truth) const;
   static double most_speed_mps();
 
  private:

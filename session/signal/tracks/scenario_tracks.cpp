@@ -52,10 +52,9 @@ void add_rows(const core::HighwayScenario& scenario, const tracking::ScenarioFra
 }
 
 int beyond(const tracking::SampledRadar& radar, const tracking::ScenarioFrame& frame) {
-  return static_cast<int>(
-      std::count_if(frame.truth.begin(), frame.truth.end(), [&](const core::HighwayTruth& one) {
-        return one.in_view && !radar.shows(one.range_m, one.range_rate_mps);
-      }));
+  return static_cast<int>(std::count_if(
+      frame.truth.begin(), frame.truth.end(),
+      [&](const core::HighwayTruth& one) { return one.in_view && !radar.shows(one); }));
 }
 
 // Where each confirmed track ended, where its target is, and how sure its name is.
