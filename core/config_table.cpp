@@ -70,6 +70,8 @@ bool ConfigTable::has(std::string_view key) const {
   return table_ != nullptr && static_cast<const toml::table*>(table_)->contains(key);
 }
 
+bool ConfigTable::takes(std::string_view key) { return find(key) != nullptr; }
+
 bool ConfigTable::is_text(std::string_view key) const {
   return has(key) && static_cast<const toml::table*>(table_)->get(key)->is_string();
 }

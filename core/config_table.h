@@ -37,6 +37,9 @@ class ConfigTable {
                                ProblemList& problems);
 
   bool has(std::string_view key) const;
+  // The same of a key that is read only where it is there: it counts as asked for, so that a table of
+  // nothing but misspelt ones is told of, with the names that it could have.
+  bool takes(std::string_view key);
   // For keys that take a text or a table.
   bool is_text(std::string_view key) const;
   bool is_table(std::string_view key) const;

@@ -64,6 +64,21 @@ TEST_CASE("A wrong type is reported with place, value and expectation, and readi
                 "test.toml:8:1: E-PARSE r = an array of 1: expected an array of tables, [[r]]"});
 }
 
+TEST_CASE("Keys that are read where they are there alone are known in a table without any",
+          "[config_table]") {
+  const auto found =
+      problems_of("[air]\nvisibility = 100\n[[car]]\nalong = 5\n", [](ConfigTable& root) {
+        CHECK_FALSE(root.table("air").takes("visibility_m"));
+        for (ConfigTable& car : root.tables("car"))
+          if (car.takes("along_m")) car.number("along_m", {}, 0.0);
+        root.report_unknown_keys();
+      });
+  check(found, {"test.toml:2:1: E-REF air.visibility = unknown key: expected a key of this table, "
+                "perhaps \"visibility_m\"",
+                "test.toml:4:1: E-REF car[0].along = unknown key: expected a key of this table, "
+                "perhaps \"along_m\""});
+}
+
 TEST_CASE("Ranges include their ends, or leave out the lower one", "[config_table]") {
   const auto count = [](const std::string& value, NumberRange range) {
     return problems_of("x = " + value, [&](ConfigTable& root) { root.number("x", range, 1.0); })

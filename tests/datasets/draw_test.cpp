@@ -161,6 +161,29 @@ TEST_CASE("A run's values depend on the file and its number alone", "[draw]") {
   }
 }
 
+// Where it stood alone in its group it was taken, and no run had it.
+TEST_CASE("A misspelt parameter is refused, alone in its group too, with the right name",
+          "[draw]") {
+  const std::string group = head("sobol", 4) + "[parameters]\n",
+                    traffic = head("sobol", 4) + "[[traffic]]\nname = \"car\"\n";
+  const auto refused = [](const std::string& text, const std::string& key,
+                          const std::string& name) {
+    CHECK_THROWS_WITH(campaign_of(text), Catch::Contains("E-REF " + key + " = unknown key") &&
+                                             Catch::Contains("perhaps \"" + name + "\""));
+  };
+  refused(group + "weather.visibility = { uniform = [100, 2000] }\n",
+          "parameters.weather.visibility", "visibility_m");
+  refused(group + "flight.lateral = 3\n", "parameters.flight.lateral", "lateral_m");
+  refused(group + "flight.lateral = 3\nflight.vertical_m = 3\n", "parameters.flight.lateral",
+          "lateral_m");
+  refused(group + "sensor.tilt = 1\n", "parameters.sensor.tilt", "tilt_deg");
+  refused(group + "surfaces = \"wet\"\n", "parameters.surfaces", "surface");
+  refused(traffic + "along = 500\n", "traffic[0].along", "along_m");
+  // A scene's key that no campaign has.
+  CHECK_THROWS_WITH(campaign_of(group + "weather.rain_top_m = 500\n"),
+                    Catch::Contains("E-REF parameters.weather.rain_top_m = unknown key"));
+}
+
 TEST_CASE("A scene is named once, and not as an airport is", "[draw]") {
   const auto told = [](const std::string& scenes, const std::string& rest,
                        datasets::ReadFor purpose) {
