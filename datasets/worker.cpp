@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -76,6 +77,21 @@ session::RunRecord settings_of(const session::Session& session, const session::S
   settings.wanted = session::wanted_of(products);
   settings.seed = session.seed();
   return settings;
+}
+
+// A scene's own flight is refused for the same.
+void check_above_ground(const scenes::Scene& scene, const std::string& name,
+                        const session::FrameRecord& frame) {
+  const glm::dvec3 at_m =
+      renderer::antenna_of(scene.description.sensor, scene.pose_at(frame.pose)).position_m;
+  const terrain::RayScene& surfaces = scene.world.surfaces();
+  if (!surfaces.in_ground(at_m)) return;
+  const double depth_m = std::max(0.01, -surfaces.height_above_ground_m(at_m));
+  core::throw_input_error(
+      core::ErrorClass::range, core::Place{name}, "flight",
+      fmt::format("frame {} with the antenna {:.2f} m inside the ground", frame.index, depth_m),
+      "an antenna above the ground in every frame; flight.vertical_m, lateral_m, turbulence_m and "
+      "campaign.frames say where it is");
 }
 
 // Where a run is made. A worker that was killed leaves it to the next on this machine.
@@ -248,6 +264,7 @@ void Worker::render(const Draw& draw, const fs::path& folder) {
                                     index, stage.own->description.sensor.scan.frame_rate_Hz)),
                                 stage.own->trajectory->begin_s());
     made.record.time_s = made.record.pose.time_s;
+    check_above_ground(*scene, stage.scene, made.record);
     const std::uint64_t key =
         (static_cast<std::uint64_t>(draw.run) << kFrameBits) + static_cast<std::uint64_t>(index);
     renderer::Frame frame =

@@ -83,6 +83,32 @@ TEST_CASE("A campaign shows what each scene shows, unless it says otherwise", "[
   CHECK(own != picture("realisation = \"mean\"\n"));
 }
 
+// Such a frame is noise alone, and labels say that its runway is in sight.
+TEST_CASE("A run with a frame under the ground fails and says which and how deep", "[worker]") {
+  const tests::TemporaryFolder folder;
+  core::ProblemList problems;
+  const datasets::Campaign campaign = datasets::read_campaign(
+      folder.write("campaign.toml",
+                   "[campaign]\nname = \"x\"\nscenes = [\"flat-grass\"]\nplan = \"grid\"\n"
+                   "frames = { count = 1 }\nproducts = [\"bscope\"]\nsamples_per_cell = 0.3\n"
+                   "isa = \"v2\"\n[parameters]\nflight.vertical_m = { values = [-62.5, -55] }\n"),
+      problems);
+  problems.throw_if_errors();
+  const fs::path out = folder.path() / "out";
+  datasets::Worker worker(campaign, {out, FANBEAM_SOURCE_DIR, {}, false});
+  CHECK(worker.make(0) == datasets::RunEnd::failed);
+  REQUIRE(worker.refused().size() == 1);
+  // The scene is looked at from 60 m above a plane.
+  CHECK_THAT(
+      core::to_string(worker.refused()[0]),
+      Catch::StartsWith("flat-grass: E-RANGE flight = frame 0 with the antenna 2.50 m inside "
+                        "the ground: expected an antenna above the ground"));
+  CHECK_THAT(core::read_file(datasets::failed_file(out, 0), 1U << 20U),
+             Catch::Contains("2.50 m inside the ground"));
+  CHECK_FALSE(fs::exists(out / "runs" / "000000"));
+  CHECK(worker.make(1) == datasets::RunEnd::made);
+}
+
 // A scene whose file is gone can be flown as long as it is held, and no longer.
 TEST_CASE("A worker holds the scene of its last run, and no other", "[worker]") {
   const TwoScenes two;
