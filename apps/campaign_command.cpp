@@ -79,7 +79,9 @@ int run(const CampaignOptions& options, const CommonOptions& common, const Campa
     Progress progress(campaign.name, static_cast<int>(runs.size()), common.quiet, "runs");
     for (std::size_t i = 0; i < runs.size(); ++i) {
       core::throw_if_stopped();
-      switch (worker.make(runs[i])) {
+      const datasets::RunEnd end = worker.make(runs[i]);
+      if (!common.quiet) print_problems(worker.new_warnings());
+      switch (end) {
         case datasets::RunEnd::made:
           ++made;
           break;
@@ -180,7 +182,7 @@ int campaign(const CampaignOptions& options, const CommonOptions& common) {
   const Campaign campaign = read_checked(options, common);
   switch (options.task) {
     case CampaignOptions::Task::plan:
-      return plan_campaign(options, campaign);
+      return plan_campaign(options, common, campaign);
     case CampaignOptions::Task::run:
       return run(options, common, campaign);
     case CampaignOptions::Task::status:

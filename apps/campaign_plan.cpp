@@ -50,7 +50,8 @@ void print_pilot(const datasets::PilotFigures& pilot, const datasets::Drawn& dra
 
 }  // namespace
 
-int plan_campaign(const CampaignOptions& options, const Campaign& campaign) {
+int plan_campaign(const CampaignOptions& options, const CommonOptions& common,
+                  const Campaign& campaign) {
   constexpr const char* kPlans[] = {"grid", "sobol", "random"};
   fmt::print("{}: {} runs ({}) of {} frames, {} frames in all, isa {}\n", campaign.name,
              campaign.runs, kPlans[static_cast<std::size_t>(campaign.plan)], campaign.frames.count,
@@ -68,6 +69,7 @@ int plan_campaign(const CampaignOptions& options, const Campaign& campaign) {
     try {
       const datasets::PilotFigures pilot =
           datasets::fly_pilot(campaign, drawn, {{}, shipped_folder(), data_folders(options.data)});
+      if (!common.quiet) print_problems(pilot.warnings);
       print_pilot(pilot, drawn, core::ThreadLimit::threads());
       all_fly = pilot.refused.empty() && all_fly;
     } catch (const core::Stopped&) {

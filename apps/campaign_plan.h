@@ -6,6 +6,7 @@
 
 namespace fanbeam::apps {
 
-int plan_campaign(const CampaignOptions& options, const datasets::Campaign& campaign);
+int plan_campaign(const CampaignOptions& options, const CommonOptions& common,
+                  const datasets::Campaign& campaign);
 
 }  // namespace fanbeam::apps

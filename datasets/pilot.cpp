@@ -113,7 +113,10 @@ class Pilot {
  private:
   bool make(int run, const std::string& scene) {
     core::throw_if_stopped();
-    if (worker_.make(run) == RunEnd::made) return true;
+    const RunEnd end = worker_.make(run);
+    for (core::Problem& warning : worker_.new_warnings())
+      figures_.warnings.push_back(std::move(warning));
+    if (end == RunEnd::made) return true;
     for (const core::Problem& problem : worker_.refused()) {
       core::Problem reason = problem;
       reason.value.clear();  // another in each run

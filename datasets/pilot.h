@@ -62,8 +62,9 @@ struct PilotFigures {
   int runs = 0, scenes = 0;
   // Mean of a run in a scene that is open, each scene counted by how many runs fly it.
   double run_s = 0.0, run_bytes = 0.0;
-  double open_s = 0.0;           // mean of a scene
-  std::vector<Refusal> refused;  // of what was tried, each reason once
+  double open_s = 0.0;                  // mean of a scene
+  std::vector<Refusal> refused;         // of what was tried, each reason once
+  std::vector<core::Problem> warnings;  // of the same
 };
 
 // Renders runs of the four scenes that most of them fly, in a folder that goes with it: of each scene one

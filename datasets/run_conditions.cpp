@@ -126,21 +126,21 @@ atmosphere::Weather weather_of(const Draw& draw, const atmosphere::Weather& own)
   return weather;
 }
 
-void set_conditions(session::Session& session, const Campaign& campaign, const Draw& draw,
-                    const scenes::Scene& own) {
-  core::ProblemList problems;
+core::ProblemList set_conditions(session::Session& session, const Campaign& campaign,
+                                 const Draw& draw, const scenes::Scene& own) {
+  core::ProblemList problems, warnings;
   const auto tried = [&](const auto& set) {
     try {
-      set();
+      warnings = set();
     } catch (const core::InputError& error) {
       problems.append(error.problems());
     }
   };
-  tried([&] { session.set(weather_of(draw, own.weather)); });
+  tried([&] { return session.set(weather_of(draw, own.weather)); });
   tried([&] {
     const auto word = draw.word("surface");
-    session.set(word ? materials::surface_state_of(*word, "surface")
-                     : own.description.surface_state);
+    return session.set(word ? materials::surface_state_of(*word, "surface")
+                            : own.description.surface_state);
   });
   tried([&] {
     session::SensorSettings settings;
@@ -148,14 +148,15 @@ void set_conditions(session::Session& session, const Campaign& campaign, const D
       settings.boresight_elevation_rad = core::radians(*tilt_deg);
     if (const auto figure_dB = draw.number("sensor.noise_figure_dB"))
       settings.noise_figure = std::pow(10.0, *figure_dB / 10.0);
-    session.set(settings);
+    return session.set(settings);
   });
   check_traffic_names(campaign, own, problems);
   tried([&] {
     const std::vector<session::TargetState> targets = traffic_of(campaign, draw, own);
-    session.set(std::span<const session::TargetState>(targets));
+    return session.set(std::span<const session::TargetState>(targets));
   });
   problems.throw_if_errors();
+  return warnings;  // of the last, when all were set
 }
 
 }  // namespace fanbeam::datasets

@@ -6,10 +6,10 @@
 
 namespace fanbeam::datasets {
 
-// `own` is the scene as it was opened: what the draw does not name is its. Throws InputError with every
-// problem; the session may then have some of the conditions.
-void set_conditions(session::Session& session, const Campaign& campaign, const Draw& draw,
-                    const scenes::Scene& own);
+// `own` is the scene as it was opened: what the draw does not name is its. Gives the warnings of what is
+// then set. Throws InputError with every problem; the session may then have some of the conditions.
+core::ProblemList set_conditions(session::Session& session, const Campaign& campaign,
+                                 const Draw& draw, const scenes::Scene& own);
 
 // The scene's weather with that of the draw.
 atmosphere::Weather weather_of(const Draw& draw, const atmosphere::Weather& own);

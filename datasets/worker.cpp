@@ -6,6 +6,8 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string_view>
+#include <utility>
 
 #include "core/files.h"
 #include "core/image.h"
@@ -148,6 +150,7 @@ Worker::Stage& Worker::stage_of(const std::string& scene) {
     core::ProblemList problems;
     stage_->session = std::make_unique<session::Session>(scene_path(scene), setup, problems);
     stage_->own = stage_->session->scene();
+    keep_warnings(scene, problems);
     if (stage_->own->frame_count() == 0)
       core::throw_input_error(core::ErrorClass::ref, core::Place{scene}, "[trajectory]", "missing",
                               "a scene with a flight");
@@ -220,6 +223,23 @@ RunEnd Worker::make(int run) {
   return RunEnd::made;
 }
 
+// Of a scene's own weather they are told with its line first, then without a place of what is set.
+void Worker::keep_warnings(const std::string& scene, const core::ProblemList& found) {
+  constexpr std::string_view kWeather = "weather.";
+  for (core::Problem problem : found.all()) {
+    if (problem.place.file.empty()) problem.place.file = scene;
+    core::Problem reason = problem;
+    reason.value.clear();  // another in each run
+    if (reason.field.starts_with(kWeather)) {
+      reason.field.erase(0, kWeather.size());
+      reason.place = core::Place{scene};
+    }
+    if (told_.insert(core::to_string(reason)).second) warnings_.push_back(std::move(problem));
+  }
+}
+
+std::vector<core::Problem> Worker::new_warnings() { return std::exchange(warnings_, {}); }
+
 void Worker::put_in_place(int run, const fs::path& made) const {
   const fs::path folder = run_folder(settings_.output, run);
   const fs::path archive = run_archive(settings_.output, run);
@@ -242,7 +262,7 @@ void Worker::put_in_place(int run, const fs::path& made) const {
 void Worker::render(const Draw& draw, const fs::path& folder) {
   Stage& stage = stage_of(scene_of(campaign_, draw));
   session::Session& session = *stage.session;
-  set_conditions(session, campaign_, draw, *stage.own);
+  keep_warnings(stage.scene, set_conditions(session, campaign_, draw, *stage.own));
   const session::Session::Moment now = session.now();
   const std::shared_ptr<const scenes::Scene> scene = session.scene(now);
   const session::ProductSet products(campaign_.products.begin(), campaign_.products.end());

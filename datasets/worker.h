@@ -13,6 +13,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -55,11 +56,15 @@ class Worker {
   const Cost& cost() const { return cost_; }
   // What was wrong with the last run that failed.
   const std::vector<core::Problem>& refused() const { return refused_; }
+  // What is odd in scenes, sensors and drawn conditions since this was asked last: each once, however many
+  // runs have it, with the value of the first.
+  std::vector<core::Problem> new_warnings();
 
  private:
   struct Stage;
   Stage& stage_of(const std::string& scene);
   std::filesystem::path scene_path(const std::string& name) const;
+  void keep_warnings(const std::string& scene, const core::ProblemList& found);
   // Of a run that is whole, in its folder: gives it its name.
   void put_in_place(int run, const std::filesystem::path& made) const;
   void render(const Draw& draw, const std::filesystem::path& folder);
@@ -72,7 +77,8 @@ class Worker {
   Drawer drawer_;
   std::unique_ptr<Stage> stage_;  // of the last run: a scene may take hundreds of megabytes
   Cost cost_;
-  std::vector<core::Problem> refused_;
+  std::vector<core::Problem> refused_, warnings_;
+  std::set<std::string> told_;  // warnings, but for their values
 };
 
 }  // namespace fanbeam::datasets

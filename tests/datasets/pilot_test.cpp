@@ -127,6 +127,16 @@ TEST_CASE("A pilot of nothing that flies says why, once", "[pilot]") {
   CHECK(none.refused.empty());
 }
 
+TEST_CASE("A pilot tells what is odd in the runs that it makes, once", "[pilot]") {
+  const tests::TemporaryFolder folder;
+  const datasets::PilotFigures warm = flown(campaign_in(
+      folder, "flat-grass",
+      "weather.snow_rate_mm_per_h = { values = [1, 3] }\nweather.temperature_C = 30\n"));
+  CHECK(warm.refused.empty());
+  REQUIRE(warm.warnings.size() == 1);
+  CHECK(warm.warnings[0].code == "W-WARM-SNOW");
+}
+
 TEST_CASE("A shard is every N-th of the runs from the K-th on", "[pilot]") {
   const std::vector<int> runs = {3, 4, 5, 10, 11, 12, 20};
   CHECK(datasets::shard_of(runs, "", "--shard") == runs);

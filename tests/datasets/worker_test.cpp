@@ -109,6 +109,45 @@ TEST_CASE("A run with a frame under the ground fails and says which and how deep
   CHECK(worker.make(1) == datasets::RunEnd::made);
 }
 
+// As `fanbeam render` tells them; ten thousand runs would tell the same.
+TEST_CASE("Warnings of a scene and of what runs draw are told once", "[worker]") {
+  const tests::TemporaryFolder folder;
+  fs::create_directory(folder.path() / "own");
+  folder.write("own/scene.toml",
+               core::read_file(FANBEAM_SOURCE_DIR "/scenes/flat-grass/scene.toml", 1U << 20U) +
+                   "\n[weather]\ntemperature_C = 30.0\nsnow_rate_mm_per_h = 3.0\n");
+  const auto told = [&](const std::string& scene, const std::string& parameters) {
+    core::ProblemList problems;
+    const datasets::Campaign campaign = datasets::read_campaign(
+        folder.write("campaign.toml", "[campaign]\nname = \"x\"\nscenes = [\"" + scene +
+                                          "\"]\nplan = \"grid\"\nframes = { count = 1 }\n"
+                                          "products = [\"bscope\"]\nsamples_per_cell = 0.3\n"
+                                          "isa = \"v2\"\n[parameters]\n" +
+                                          parameters),
+        problems);
+    problems.throw_if_errors();
+    datasets::Worker worker(campaign, {folder.path() / "out", FANBEAM_SOURCE_DIR, {}, true});
+    std::vector<std::string> texts;
+    for (int run = 0; run < campaign.runs; ++run) {
+      REQUIRE(worker.make(run) == datasets::RunEnd::made);
+      for (const core::Problem& warning : worker.new_warnings())
+        texts.push_back(core::to_string(warning));
+    }
+    return texts;
+  };
+  const std::vector<std::string> drawn =
+      told("flat-grass",
+           "weather.temperature_C = { values = [20, 30] }\nweather.snow_rate_mm_per_h = 3\n");
+  REQUIRE(drawn.size() == 1);
+  CHECK_THAT(drawn[0], Catch::StartsWith("flat-grass: W-WARM-SNOW snow_rate_mm_per_h = dry snow in "
+                                         "air of 20 C"));
+  const std::vector<std::string> own = told("own", "weather.humidity = { values = [0.4, 0.5] }\n");
+  REQUIRE(own.size() == 1);
+  CHECK_THAT(own[0], Catch::Contains("own/scene.toml:") &&
+                         Catch::Contains("W-WARM-SNOW weather.snow_rate_mm_per_h"));
+  CHECK(told("flat-grass", "weather.humidity = { values = [0.4, 0.5] }\n").empty());
+}
+
 // A scene whose file is gone can be flown as long as it is held, and no longer.
 TEST_CASE("A worker holds the scene of its last run, and no other", "[worker]") {
   const TwoScenes two;
