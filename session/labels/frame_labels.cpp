@@ -190,11 +190,11 @@ RunwayLabel runway_label(const Eye& eye, const scenes::RunwayPlace& runway) {
   return label;
 }
 
-// Of what is not in view at all nothing else is asked.
-Shares shares_of(const Eye& eye, const std::vector<Facet>& facets) {
+// Of what gets no label, neither in view nor in any cell, nothing else is asked.
+Shares shares_of(const Eye& eye, const std::vector<Facet>& facets, bool lit) {
   constexpr double kClearance_m = 0.2;  // the facet itself is no obstacle
-  if (std::none_of(facets.begin(), facets.end(),
-                   [&](const Facet& facet) { return in_view(eye, facet.middle_m); }))
+  if (!lit && std::none_of(facets.begin(), facets.end(),
+                           [&](const Facet& facet) { return in_view(eye, facet.middle_m); }))
     return {};
   ShareSum sum;
   for (const Facet& facet : facets) {
@@ -222,9 +222,9 @@ Labeller::~Labeller() = default;
 
 namespace {
 
-// All of it but masks.
+// All of it but masks; `lit`: they have cells.
 ObjectLabel object_label(const Eye& eye, const LabelledThing& thing,
-                         const std::vector<ObjectShape>& shapes, double time_s) {
+                         const std::vector<ObjectShape>& shapes, double time_s, bool lit) {
   const scenes::Scene& scene = eye.scene();
   ObjectLabel label;
   label.name = thing.name;
@@ -255,7 +255,7 @@ ObjectLabel object_label(const Eye& eye, const LabelledThing& thing,
   label.middle = eye.look_at(middle_m);
   label.height_m =
       places_m.empty() ? box.high.z - ground_m(scene, middle_m.x, middle_m.y) : tallest_m;
-  const Shares shares = facets.empty() ? points.shares() : shares_of(eye, facets);
+  const Shares shares = facets.empty() ? points.shares() : shares_of(eye, facets, lit);
   label.in_sight_share = shares.in_sight;
   label.in_view_share = shares.in_view;
   // A line to the middle of a solid ends behind its own face.
@@ -314,9 +314,12 @@ FrameLabels Labeller::labels(const scenes::Scene& scene, const core::Pose& pose,
       static_cast<int>(std::ceil(sensor.antenna.azimuth.cut_rad / sensor.scan.column_width_rad()));
   std::vector<ObjectLabel> objects(known_->things.size());
   core::parallel_for(objects.size(), [&](std::size_t i) {
-    objects[i] = object_label(eye, known_->things[i], known_->shapes, pose.time_s);
-    objects[i].bscope = std::move(masks.bscope[scene.runways.size() + i]);
-    objects[i].cscope = std::move(masks.cscope[scene.runways.size() + i]);
+    MaskLabel &bscope = masks.bscope[scene.runways.size() + i],
+              &cscope = masks.cscope[scene.runways.size() + i];
+    const bool lit = !bscope.cells.empty() || !cscope.cells.empty();
+    objects[i] = object_label(eye, known_->things[i], known_->shapes, pose.time_s, lit);
+    objects[i].bscope = std::move(bscope);
+    objects[i].cscope = std::move(cscope);
     if (!objects[i].bscope.cells.empty())
       objects[i].signal_to_clutter_dB = signal_to_clutter_dB(
           objects[i].bscope, frame.bscope_W, sensor.scan.columns, reach, frame.noise_W);

@@ -61,8 +61,9 @@ const char* word(Placement placement) {
   return kWords[static_cast<std::size_t>(placement)];
 }
 
-const char* view_word(double share) {
-  return share >= 1.0 ? "in_view" : share > 0.0 ? "cut" : "outside";
+// What has cells is in view with some of it, though no triangle's middle is.
+const char* view_word(double share, const MaskLabel& bscope) {
+  return share >= 1.0 ? "in_view" : share > 0.0 || !bscope.cells.empty() ? "cut" : "outside";
 }
 
 Json runway_json(const RunwayLabel& runway, const sensors::Sensor& sensor) {
@@ -81,7 +82,7 @@ Json runway_json(const RunwayLabel& runway, const sensors::Sensor& sensor) {
           {"touchdown_zone", corners_json(runway.touchdown_zone)},
           {"in_sight_share", rounded(runway.in_sight_share)},
           {"in_view_share", rounded(runway.in_view_share)},
-          {"view", view_word(runway.in_view_share)},
+          {"view", view_word(runway.in_view_share, runway.bscope)},
           {"bscope", mask_json(runway.bscope, columns, sensor.range.cells)},
           {"cscope", mask_json(runway.cscope, columns, sensor.display.cscope_rows)}};
 }
@@ -96,7 +97,7 @@ Json object_json(const ObjectLabel& object, const sensors::Sensor& sensor) {
                {"height_m", rounded(object.height_m)},
                {"in_sight_share", rounded(object.in_sight_share)},
                {"in_view_share", rounded(object.in_view_share)},
-               {"view", view_word(object.in_view_share)},
+               {"view", view_word(object.in_view_share, object.bscope)},
                {"signal_to_clutter_dB", nullptr},
                {"bscope", mask_json(object.bscope, columns, sensor.range.cells)},
                {"cscope", mask_json(object.cscope, columns, sensor.display.cscope_rows)}};

@@ -132,6 +132,29 @@ TEST_CASE("Points on a slope are as high as each stands over its own ground", "[
   CHECK(posts[0].height_m == Approx(2.0).epsilon(0.0).margin(0.1));
 }
 
+// Its middle lies 400 m beside the sector, one of its corners 200 m inside, with nothing before it.
+TEST_CASE("What has cells in a picture is in sight, and cut where no triangle's middle is in view",
+          "[labels]") {
+  const tests::TemporaryFolder folder;
+  // A level triangle from that corner to the right; X of glTF is left.
+  folder.write("plate.gltf", tests::gltf({0, 3, 0, -900, 3, -400, -900, 3, 400}, {0, 1, 2}));
+  const Labelled labelled(
+      folder, tests::kSmallScene +
+                  "\n[[model]]\nfile = \"plate.gltf\"\ndefault_material = \"short_grass\"\n"
+                  "at = { runway = \"36\", behind_threshold_m = 500.0, left_m = -500.0 }\n");
+  const std::vector<ObjectLabel> plates = labelled.of(ObjectGroup::model);
+  REQUIRE(plates.size() == 1);
+  REQUIRE_FALSE(plates[0].bscope.cells.empty());
+  CHECK(plates[0].in_view_share == 0.0);
+  CHECK(plates[0].in_sight_share == 1.0);
+  CHECK(plates[0].middle.in_sight);
+  const auto objects = nlohmann::json::parse(labelled.json())["objects"];
+  const auto plate = std::find_if(objects.begin(), objects.end(),
+                                  [](const auto& object) { return object["group"] == "model"; });
+  REQUIRE(plate != objects.end());
+  CHECK((*plate)["view"] == "cut");
+}
+
 // Noise that the display hides was left out of it unless `power` was asked for beside the labels.
 TEST_CASE("Signal to clutter counts the noise that a display hides", "[labels]") {
   const tests::TemporaryFolder folder;
