@@ -40,7 +40,7 @@ FogLaw fog_law_named(std::string_view name) { return choice_named(kFogLawNames, 
 std::string_view name_of(FogLaw law) { return name_in(kFogLawNames, law); }
 
 double fog_coefficient(FogLaw law, double frequency_Hz, double temperature_C) {
-  core::require_range("temperature_C", temperature_C, {-40.0, 50.0}, "C");
+  core::require_range("temperature_C", temperature_C, {-40.0, 50.0}, "C where there is fog");
   switch (law) {
     case FogLaw::itu_p840:
       require_frequency(frequency_Hz, 1e9, 200e9, "the fog law itu-p840");

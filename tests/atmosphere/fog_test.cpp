@@ -62,7 +62,7 @@ TEST_CASE("Fog laws accept their own wavelengths and temperatures, borders inclu
   tests::check_rejected([] { fog_coefficient(FogLaw::itu_p840, 201e9, 10.0); }, ErrorClass::range,
                         "frequency = 201 GHz: expected 1 to 200 GHz for the fog law itu-p840");
   tests::check_rejected([] { fog_coefficient(FogLaw::itu_p840, 35e9, -41.0); }, ErrorClass::range,
-                        "-40 to 50 C");
+                        "-40 to 50 C where there is fog");
 }
 
 TEST_CASE("Round frequencies of the fog laws' round wavelengths are inside, and told in GHz",
