@@ -6,6 +6,8 @@
 
 #include <fstream>
 #include <memory>
+#include <string>
+#include <system_error>
 
 #include "core/errors.h"
 #include "core/files.h"
@@ -111,7 +113,10 @@ std::string RunFiles::shown(const std::string& name) const {
 void pack(const fs::path& folder, const std::vector<std::string>& names, const fs::path& file) {
   const std::unique_ptr<archive, Closer> tar(archive_write_new());
   const auto check = [&](la_ssize_t status) {
-    if (status < ARCHIVE_OK) throw_io(file, archive_error_string(tar.get()));
+    if (status >= ARCHIVE_OK) return;
+    const int why = archive_errno(tar.get());  // "Write error" alone names no full disk
+    throw_io(file, std::string(archive_error_string(tar.get())) +
+                       (why > 0 ? ": " + std::generic_category().message(why) : ""));
   };
   check(archive_write_set_format_ustar(tar.get()));
   check(archive_write_open_filename(tar.get(), file.c_str()));
