@@ -32,8 +32,13 @@ void read_frames(ConfigTable table, FrameSpread& frames) {
                 "at least " + core::number_text(frames.from) + ", where it begins");
 }
 
-void read_products(ConfigTable& table, std::vector<std::string>& products) {
-  products = table.texts("products");
+// Earlier versions took one that is named twice, and gave it two columns of one name.
+void read_products(ConfigTable& table, std::vector<std::string>& products, ReadFor purpose) {
+  for (const std::string& product : table.texts("products"))
+    if (std::find(products.begin(), products.end(), product) == products.end())
+      products.push_back(product);
+    else if (purpose == ReadFor::making)
+      table.error(ErrorClass::ref, "products", "\"" + product + "\"", "each product once");
   if (products.empty()) products = {"bscope", "cscope", "labels"};
   std::vector<std::string> known;
   for (const session::Product& product : session::kProducts)
@@ -89,7 +94,7 @@ void read_campaign_table(ConfigTable table, Campaign& campaign, ReadFor purpose)
   campaign.seed = static_cast<std::uint64_t>(
       table.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), 0));
   read_frames(table.table("frames"), campaign.frames);
-  read_products(table, campaign.products);
+  read_products(table, campaign.products, purpose);
   const std::size_t level = table.choice("isa", {"v2", "v3", "v4"}, 1);
   campaign.isa = std::array{core::InstructionLevel::v2, core::InstructionLevel::v3,
                             core::InstructionLevel::v4}[level];

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
 #include <set>
 #include <string>
 
@@ -207,6 +208,22 @@ TEST_CASE("A scene is named once, and not as an airport is", "[draw]") {
   }
 }
 
+TEST_CASE("A product is named once; of an earlier version's campaign it is one column", "[draw]") {
+  const tests::TemporaryFolder folder;
+  const std::filesystem::path file = folder.write(
+      "campaign.toml", head("random", 1) + "products = [\"bscope\", \"labels\", \"bscope\"]\n");
+  core::ProblemList making, looking;
+  datasets::read_campaign(file, making);
+  REQUIRE(making.all().size() == 1);
+  CHECK_THAT(
+      core::to_string(making.all()[0]),
+      Catch::Contains("campaign.toml:6:") &&
+          Catch::Contains("E-REF campaign.products = \"bscope\": expected each product once"));
+  const Campaign campaign = datasets::read_campaign(file, looking, datasets::ReadFor::looking);
+  CHECK(looking.all().empty());
+  CHECK(campaign.products == std::vector<std::string>{"bscope", "labels"});
+}
+
 TEST_CASE("A Sobol plan fills every dimension evenly, whatever the seed", "[draw]") {
   for (const int seed : {0, 1, 99}) {
     const Campaign campaign =
@@ -250,6 +267,14 @@ TEST_CASE("Runs leave the flight as they are told, and wander as far as they are
   CHECK(datasets::run_pose(draw, 1, flown, 1000.0).time_s == 1005.0);
   CHECK(pose.v_N_mps.x == 100.0);
   CHECK(core::attitude_from(pose.q_NB).heading_rad == Approx(1.5707963267948966));
+
+  // Pitched up, it turns about its own axes: a right angle of yaw makes all of its pitch a roll.
+  flown.q_NB = core::quaternion_from({0.0, 0.1, 0.0});
+  draw.values = {{"flight.heading_deg", 90.0}};
+  const core::Attitude yawed = core::attitude_from(datasets::run_pose(draw, 1, flown, 0.0).q_NB);
+  CHECK(yawed.roll_rad == Approx(0.1).epsilon(1e-9));
+  CHECK(yawed.pitch_rad == Approx(0.0).epsilon(0.0).margin(1e-12));
+  CHECK(yawed.heading_rad == Approx(1.5707963267948966));
 
   draw.values = {{"flight.turbulence_m", 3.0}};
   double square = 0.0;
