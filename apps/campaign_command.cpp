@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -129,11 +130,19 @@ int status(const CampaignOptions& options, const CommonOptions& common, const Ca
 }
 
 int merge(const CampaignOptions& options, const CommonOptions& common, const Campaign& campaign) {
-  const datasets::Merged merged = datasets::merge(campaign, folder_of(options.output, campaign));
+  const fs::path output = folder_of(options.output, campaign);
+  const datasets::Merged merged = datasets::merge(campaign, output);
   if (common.quiet) return kExitDone;
   fmt::print("{} of {} runs, {} frames\n", merged.runs, campaign.runs, merged.frames);
   for (const fs::path& file : merged.files)
     fmt::print("{}\n", fs::absolute(file).lexically_normal().string());
+  const auto names_pictures = [](const fs::path& file) { return file.filename() == "coco.json"; };
+  if (campaign.archives && std::any_of(merged.files.begin(), merged.files.end(), names_pictures))
+    fmt::print(
+        "coco.json and lard.csv name pictures as they lie when the archives are unpacked:\n"
+        "for t in {}/*.tar; do mkdir -p \"${{t%.tar}}\" && tar -xf \"$t\" -C \"${{t%.tar}}\"; "
+        "done\n",
+        core::shell_word((output / "runs").string()));
   return kExitDone;
 }
 

@@ -53,7 +53,7 @@ void print_pilot(const datasets::PilotFigures& pilot, const datasets::Drawn& dra
 int plan_campaign(const CampaignOptions& options, const CommonOptions& common,
                   const Campaign& campaign) {
   constexpr const char* kPlans[] = {"grid", "sobol", "random"};
-  fmt::print("{}: {} runs ({}) of {} frames, {} frames in all, isa {}\n", campaign.name,
+  fmt::print("{}: {} runs ({}) of at most {} frames, {} in all, isa {}\n", campaign.name,
              campaign.runs, kPlans[static_cast<std::size_t>(campaign.plan)], campaign.frames.count,
              static_cast<long long>(campaign.runs) * campaign.frames.count,
              core::short_name_of(campaign.isa));

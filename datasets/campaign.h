@@ -72,13 +72,13 @@ inline constexpr std::array<ParameterKind, 19> kParameters = {{
     {"sensor", "noise_figure_dB", {0.0, 60.0}, "of the receiver"},
     {"flight", "lateral_m", {-2000.0, 2000.0}, "right of the scene's flight"},
     {"flight", "vertical_m", {-500.0, 5000.0}, "above it"},
-    {"flight", "heading_deg", {-90.0, 90.0}, "added to its heading"},
-    {"flight", "pitch_deg", {-45.0, 45.0}, "added to its pitch"},
-    {"flight", "roll_deg", {-60.0, 60.0}, "added to its roll"},
+    {"flight", "heading_deg", {-90.0, 90.0}, "yaw about the aircraft's own axes"},
+    {"flight", "pitch_deg", {-45.0, 45.0}, "pitch about them, after the yaw"},
+    {"flight", "roll_deg", {-60.0, 60.0}, "roll about them, last"},
     {"flight", "speed_factor", {0.1, 10.0}, "times its speed"},
     {"flight", "time_s", {-1e6, 1e6}, "added to its time: moves the scene's targets"},
     {"flight", "turbulence_m", {0.0, 200.0}, "RMS of the path aside and in height"},
-    {"flight", "turbulence_deg", {0.0, 30.0}, "RMS of roll, pitch and heading"},
+    {"flight", "turbulence_deg", {0.0, 30.0}, "RMS of yaw, pitch and roll, as above"},
 }};
 
 // One that varies, or is set.

@@ -17,7 +17,7 @@ namespace fanbeam::datasets {
 
 inline constexpr int kWaves = 4;
 
-// Frames of the flight, evenly from the share `from` to the share `to` of it.
+// Frames of the flight, evenly from the share `from` to the share `to` of it, each once: fewer where it has fewer.
 std::vector<int> frames_of(const FrameSpread& spread, int frame_count);
 
 // `begin_s` is when the flight begins, on the clock of `flown`: there every speed is at the same place.

@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import shutil
 import subprocess
 import tarfile
 
@@ -64,6 +65,20 @@ def test_the_index_says_where_in_an_archive_a_picture_lies(both):
             assert found == (both / "folders" / other[product]).read_bytes()
     for name in ("coco.json", "lard.csv"):
         assert (both / "archives" / name).read_bytes() == (both / "folders" / name).read_bytes()
+
+
+def test_what_merge_prints_makes_the_names_in_labels_true(program, both, tmp_path):
+    campaign, folder = both / "archives.toml", tmp_path / "it's here"
+    shutil.copytree(both / "archives", folder)
+    assert ".tar" not in told(program, "merge", both / "folders.toml", "-o", both / "folders")
+    command = told(program, "merge", campaign, "-o", folder).strip().splitlines()[-1]
+    images = json.loads((folder / "coco.json").read_text(encoding="utf-8"))["images"]
+    assert images and not (folder / images[0]["file_name"]).exists()
+    subprocess.run(["sh", "-c", command], check=True)
+    for image in images:
+        assert (folder / image["file_name"]).read_bytes() == (both / "folders" / image["file_name"]).read_bytes()
+    told(program, "verify", campaign, "-o", folder)
+    assert "6 of 6 runs there" in told(program, "status", campaign, "-o", folder)
 
 
 def test_archives_are_the_same_bytes_from_any_worker_and_damage_is_found(program, both, tmp_path):

@@ -375,7 +375,7 @@ rcs_m2 = -4
 
 def test_the_example_is_what_its_page_shows(program, root, tmp_path):
     example = root / "datasets" / "example.toml"
-    assert "24 runs (sobol) of 5 frames, 120 frames in all" in told(program, "plan", example, "--no-pilot")
+    assert "24 runs (sobol) of at most 5 frames, 120 in all" in told(program, "plan", example, "--no-pilot")
     shown = (root / "docs" / "campaigns.md").read_text(encoding="utf-8")
     for line in example.read_text(encoding="utf-8").splitlines()[1:]:
         assert f"    {line}\n" in shown or not line
@@ -390,7 +390,7 @@ def test_the_plan_covers_its_ranges(program, tmp_path):
     begin = time.monotonic()
     said = told(program, "plan", file, "--no-pilot")
     assert time.monotonic() - begin < 20
-    assert "1024 runs (sobol) of 2 frames, 2048 frames in all" in said
+    assert "1024 runs (sobol) of at most 2 frames, 2048 in all" in said
     # A Sobol plan of 2^k runs hits a choice of three to four as often as its weights say, to one.
     counts = next(line for line in said.splitlines() if line.strip().startswith("scene "))
     assert abs(int(counts.split("obstacle-field in ")[1].split()[0].rstrip(",")) - 768) <= 1
