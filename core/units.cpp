@@ -4,6 +4,10 @@
 
 namespace fanbeam::core {
 
+double rounded_degrees(double angle_rad) {
+  return std::round(degrees(angle_rad) * 1e6) / 1e6 + 0.0;
+}
+
 double wrap_360_deg(double angle_deg) {
   const double wrapped = angle_deg - 360.0 * std::floor(angle_deg / 360.0);
   return wrapped >= 360.0 ? 0.0 : wrapped;  // -1e-17 would round up to 360

@@ -23,7 +23,7 @@ constexpr double kShortestRunway_m = 100.0;
 
 std::string degrees_text(const core::Geodetic& position) {
   const auto text = [](double angle_rad) {
-    return core::number_text(std::round(core::degrees(angle_rad) * 1e6) / 1e6);
+    return core::number_text(core::rounded_degrees(angle_rad));
   };
   return text(position.latitude_rad) + ", " + text(position.longitude_rad);
 }

@@ -105,10 +105,11 @@ void read_cosecant(core::ConfigTable& table, PatternPlane plane, double boresigh
   const core::NumberRange depression_deg{0.0, 90.0, true};
   const double from_deg = table.required_number("cosecant_from_deg", depression_deg);
   const double to_deg = table.required_number("cosecant_to_deg", depression_deg);
-  const double peak_deg = -core::degrees(boresight_elevation_rad);
-  if (from_deg < peak_deg)
+  // In radians, where both have come the same way from degrees: the two are often equal.
+  if (radians(from_deg) < -boresight_elevation_rad)
     table.error(ErrorClass::range, "cosecant_from_deg", core::number_text(from_deg),
-                "at least the depression of the boresight, " + core::number_text(peak_deg));
+                "at least the depression of the boresight, " +
+                    core::number_text(core::rounded_degrees(-boresight_elevation_rad)));
   if (!(to_deg > from_deg))
     table.error(ErrorClass::range, "cosecant_to_deg", core::number_text(to_deg),
                 "above cosecant_from_deg = " + core::number_text(from_deg));

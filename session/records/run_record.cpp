@@ -99,11 +99,6 @@ Json sensor_json(const sensors::Sensor& sensor) {
           {"assumed", sensor.assumed}};
 }
 
-// Angles that files state in degrees, without the rounding of their way through radians.
-double whole_micro_deg(double angle_rad) {
-  return std::round(core::degrees(angle_rad) * 1e6) / 1e6;
-}
-
 Json receiver_json(const scenes::Scene& scene) {
   const sensors::Sensor& sensor = scene.description.sensor;
   const sensors::ReceiverFigures figures = sensors::receiver_figures(sensor);
@@ -156,13 +151,13 @@ Json header_json(const scenes::Scene& scene, const RunRecord& record) {
   json["materials"] = Json::array();
   json["extrapolations"] = Json::array();
   for (const scenes::SurfaceRecord& surface : scene.surfaces) {
-    json["materials"].push_back(
-        {{"material", surface.material},
-         {"shown_as", surface.shown_as},
-         {"model", surface.model},
-         {"confidence", surface.confidence},
-         {"source_covers_grazing_deg",
-          {whole_micro_deg(surface.grazing_rad.low), whole_micro_deg(surface.grazing_rad.high)}}});
+    json["materials"].push_back({{"material", surface.material},
+                                 {"shown_as", surface.shown_as},
+                                 {"model", surface.model},
+                                 {"confidence", surface.confidence},
+                                 {"source_covers_grazing_deg",
+                                  {core::rounded_degrees(surface.grazing_rad.low),
+                                   core::rounded_degrees(surface.grazing_rad.high)}}});
     for (const materials::Extrapolation& outside : surface.extrapolations)
       json["extrapolations"].push_back({{"material", surface.shown_as},
                                         {"quantity", outside.quantity},

@@ -54,6 +54,31 @@ TEST_CASE("side-lobe keys are read in decibels and degrees", "[antenna_keys]") {
   CHECK(tests::hivision().antenna.azimuth.side_lobe_gain == 0.0);
 }
 
+// Degrees to radians and back are not the same number for 1.5, 2.3, 3, 3.7 and more.
+TEST_CASE("a cosecant may begin at the boresight, whatever its depression", "[antenna_keys]") {
+  const auto with_peak = [](int tenths, double from_deg) {
+    const std::string peak_deg = core::number_text(tenths / 10.0);
+    std::string text = tests::hivision_text(
+        "shape = \"gaussian\"\nhalf_power_width_deg = 10.0",
+        "shape = \"cosecant_squared\"\nhalf_power_width_deg = 10.0\ncosecant_from_deg = " +
+            core::number_text(from_deg) + "\ncosecant_to_deg = 40.0\n#");
+    text = tests::replaced_once(text, "cut_deg = 15.625", "# 15.625");
+    return tests::replaced_once(text, "boresight_elevation_deg = -3.8",
+                                "boresight_elevation_deg = -" + peak_deg);
+  };
+  for (int tenths = 5; tenths < 150; ++tenths) {
+    INFO(tenths << " tenths of a degree");
+    const auto [sensor, problems] = read(with_peak(tenths, tenths / 10.0));
+    for (const core::Problem& problem : problems)
+      CHECK(problem.field != "antenna.elevation.cosecant_from_deg");
+    CHECK(sensor.antenna.elevation.cosecant_from_rad == 0.0);
+  }
+  const auto [sensor, problems] = read(with_peak(30, 2.999));
+  REQUIRE_FALSE(problems.empty());
+  CHECK(problems[0].field == "antenna.elevation.cosecant_from_deg");
+  CHECK(problems[0].expected == "at least the depression of the boresight, 3");
+}
+
 TEST_CASE("S10 shapes, lobes, windows and sweeps that make no sense are refused",
           "[antenna_keys]") {
   const std::string shape = "shape = \"gaussian\"\nhalf_power_width_deg = 10.0";
