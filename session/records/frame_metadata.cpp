@@ -99,7 +99,7 @@ core::Metadata frame_metadata(const scenes::Scene& scene, const renderer::Sampli
       {"fanbeam:heading_deg", core::number_text(core::degrees(attitude.heading_rad))},
       {"fanbeam:azimuth",
        fmt::format("{} columns, {} deg", sensor.scan.columns,
-                   core::number_text(core::degrees(sensor.scan.field_of_view_rad)))},
+                   core::number_text(core::rounded_degrees(sensor.scan.field_of_view_rad)))},
       {"fanbeam:range", fmt::format("{} m + {} x {} m", core::number_text(sensor.range.minimum_m),
                                     sensor.range.cells, core::number_text(sensor.range.cell_m))},
       {"fanbeam:display_mapping", mapping_text(sensor.display.mapping)},

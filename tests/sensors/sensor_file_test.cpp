@@ -197,6 +197,24 @@ TEST_CASE("columns wider than the beam are a warning", "[sensor_file]") {
   check_single(problems_of(tests::hivision_text("columns = 164", "columns = 41")), "W-COLUMNS",
                "scan.columns");
   CHECK(problems_of(tests::hivision_text("columns = 164", "columns = 82")).empty());
+  const auto found = [](const std::string& field_deg, const std::string& columns) {
+    return problems_of(
+        tests::replaced_once(tests::hivision_text("columns = 164", "columns = " + columns),
+                             "field_of_view_deg = 41.0", "field_of_view_deg = " + field_deg));
+  };
+  // As wide as the beam of 0.8 deg, but for the last digit of a number in radians.
+  for (const auto& [field_deg, columns] :
+       {std::pair<const char*, const char*>{"17.6", "22"}, {"35.2", "44"}, {"70.4", "88"}}) {
+    INFO(field_deg << " deg in " << columns << " columns");
+    for (const core::Problem& problem : found(field_deg, columns))
+      CHECK(problem.code != "W-COLUMNS");
+  }
+  const auto wider = found("60.0", "2");
+  const auto told = std::find_if(wider.begin(), wider.end(), [](const core::Problem& problem) {
+    return problem.code == "W-COLUMNS";
+  });
+  REQUIRE(told != wider.end());
+  CHECK(told->expected.starts_with("kept: of 30 deg, wider than the beam of 0.8 deg, "));
 }
 
 TEST_CASE("a stated dwell must fit its column and sets the noise", "[sensor_file]") {
