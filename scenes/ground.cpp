@@ -128,9 +128,15 @@ terrain::Runway Ground::place_runway(const RunwayDescription& description,
   runway.markings = description.markings;
   runway.strip_half_width_m = description.strip_half_width_m;
   runway.blend_m = description.blend_m;
-  runway.materials = {names.id(description.surface, description.place, "runway.surface"),
-                      names.id(description.shoulder_material, description.place, "runway.shoulder"),
-                      names.id(description.marking_material, description.place, "runway.marking")};
+  // A library of the user's own may lack one that the scene never wrote.
+  const auto material = [&](const char* field, const std::string& name, const std::string& usual) {
+    return names.id(name, description.place,
+                    std::string("runway.") + field + (name == usual ? ", the default" : ""));
+  };
+  const RunwayDescription usual;
+  runway.materials = {material("surface", description.surface, usual.surface),
+                      material("shoulder", description.shoulder_material, usual.shoulder_material),
+                      material("marking", description.marking_material, usual.marking_material)};
   if (runway.length_m() < kShortestRunway_m) {
     problems_.error(ErrorClass::range, description.place, "runway length",
                     core::number_text(runway.length_m()) + " m", "ends at least 100 m apart");
