@@ -47,7 +47,7 @@ CLI::App& add_init_command(CLI::App& program, InitOptions& options) {
   add_runway_data(command, options);
   command
       .add_option("--dem", options.elevation,
-                  "Elevations: GeoTIFF, DTED, SRTM .hgt or ESRI ASCII grid")
+                  "Elevations: GeoTIFF, DTED, SRTM .hgt or ESRI ASCII grid with its .prj")
       ->type_name(kFileValue)
       ->required();
   CLI::Option* track = command.add_option(

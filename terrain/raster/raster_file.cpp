@@ -183,10 +183,16 @@ PixelMap BandReader::make_map() const {
   std::array<double, 6> geotransform{};
   const OGRSpatialReference* crs = dataset_->GetSpatialRef();
   const bool has_geotransform = dataset_->GetGeoTransform(geotransform.data()) == CE_None;
-  if (!has_geotransform || crs == nullptr || crs->IsEmpty())
-    refuse(core::ErrorClass::ref, "georeference",
-           has_geotransform ? "no coordinate reference system" : "no geotransform",
-           "a geotransform and a coordinate reference system");
+  const bool has_crs = crs != nullptr && !crs->IsEmpty();
+  if (!has_geotransform)
+    refuse(core::ErrorClass::ref, "georeference", "no geotransform",
+           has_crs ? "a geotransform" : "a geotransform and a coordinate reference system");
+  if (!has_crs) {
+    // An ESRI ASCII grid has no place for one in itself.
+    const bool is_grid = EQUAL(dataset_->GetDriver()->GetDescription(), "AAIGrid");
+    refuse(core::ErrorClass::ref, "georeference", "no coordinate reference system",
+           is_grid ? "one in a .prj file beside the grid, of its name" : "one in the file");
+  }
   char* text = nullptr;
   crs->exportToWkt(&text);
   const std::string wkt = text != nullptr ? text : "";

@@ -34,10 +34,11 @@ TEST_CASE("A raster without georeference, a damaged one, one that ends too early
     AsciiGrid grid = grid_around();
     grid.wkt = "";
     grid.write(folder, "dem", flat);
-    check_problems(folder, text,
-                   {"@/scene.toml:9:1: E-REF terrain.elevation = dem.asc, georeference: no "
-                    "coordinate reference system: expected "
-                    "a geotransform and a coordinate reference system"});
+    check_problems(
+        folder, text,
+        {"@/scene.toml:9:1: E-REF terrain.elevation = dem.asc, georeference: no "
+         "coordinate reference system: expected one in a .prj file beside the grid, of its "
+         "name"});
   }
   {
     const TemporaryFolder folder;
@@ -216,6 +217,23 @@ TEST_CASE("Objects outside the terrain and unknown materials", "[bad_scene]") {
                  "6:1: E-REF terrain.material = \"shortgrass\": expected a material of the "
                  "library; nearest are short_grass, "
                  "tall_grass, short_grass_wet");
+}
+
+TEST_CASE("A material that the scene never wrote is told to be the default", "[bad_scene]") {
+  const TemporaryFolder folder;
+  folder.write("library.toml",
+               "[short_grass]\nmodel = \"oh1992\"\nmedium = \"concrete\"\nrms_height_mm = 0.2\n"
+               "confidence = \"assumed\"\nsource = \"a test\"\n");
+  const tests::Outcome outcome = tests::build_text(
+      folder, "material_library = \"library.toml\"\n" +
+                  tests::replaced(tests::kSmallScene, "elevation_m = 60.0 }",
+                                  "elevation_m = 60.0 }\nmarking = \"chalk\"\nmarkings = false"));
+  std::vector<std::string> fields;
+  for (const core::Problem& problem : outcome.problems)
+    if (problem.code == "E-REF" && problem.field.starts_with("runway."))
+      fields.push_back(problem.field);
+  CHECK(fields == std::vector<std::string>{"runway.surface, the default",
+                                           "runway.shoulder, the default", "runway.marking"});
 }
 
 TEST_CASE("A trajectory outside the terrain, and a sensor inside the ground", "[bad_scene]") {

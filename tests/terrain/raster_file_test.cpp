@@ -187,7 +187,8 @@ TEST_CASE("Rasters that cannot be placed on the Earth are refused", "[raster_fil
   AsciiGrid grid{4, 4, 11.0, 47.0, 0.01};
   grid.wkt = "";
   CHECK_THAT(refusal_of(grid.write(folder, "no_crs", ten)),
-             Contains("E-REF georeference") && Contains("a geotransform and a coordinate"));
+             Contains("E-REF georeference = no coordinate reference system: expected one in a .prj "
+                      "file beside the grid"));
   grid.wkt = "LOCAL_CS[\"site grid\",UNIT[\"metre\",1]]";
   CHECK_THAT(refusal_of(grid.write(folder, "site", ten)), Contains("E-REF"));
   AsciiGrid globe{36, 18, -180.0, -90.0, 10.0};
