@@ -114,4 +114,24 @@ void check_flight(const SceneDescription& scene, const terrain::LocalFrame& fram
                        std::to_string(below.count) + ")" + window);
 }
 
+void tell_standing_targets(const SceneDescription& scene, const Trajectory& trajectory,
+                           core::ProblemList& problems) {
+  if (trajectory.poses().size() < 2) return;
+  const auto span_text = [](double begin_s, double end_s) {
+    const auto text = [](double time_s) {
+      return number_text(std::round(time_s * 1e3) / 1e3 + 0.0);
+    };
+    return text(begin_s) + " s to " + text(end_s) + " s";
+  };
+  for (const TargetDescription& target : scene.targets) {
+    if (target.path.size() < 2) continue;
+    const double begin_s = target.path.front().time_s, end_s = target.path.back().time_s;
+    if (end_s > trajectory.begin_s() && begin_s < trajectory.end_s()) continue;
+    problems.warning("STANDS", target.place, "target",
+                     "\"" + target.name + "\" on its way from " + span_text(begin_s, end_s),
+                     "kept where it stands all the time: the flight, on the same clock, is from " +
+                         span_text(trajectory.begin_s(), trajectory.end_s()));
+  }
+}
+
 }  // namespace fanbeam::scenes

@@ -1,4 +1,4 @@
-// Can every frame of the flight be rendered?
+// Can every frame of the flight be rendered, and does what should move in it move?
 #pragma once
 
 #include "core/errors.h"
@@ -16,5 +16,11 @@ namespace fanbeam::scenes {
 void check_flight(const SceneDescription& scene, const terrain::LocalFrame& frame,
                   const Trajectory& trajectory, const terrain::HeightField& ground,
                   core::ProblemList& problems);
+
+// W-STANDS for each target that has a way, all of it over before the flight begins or begun after
+// the flight ends: its times are often those of another clock. Nothing for a fixed pose, which holds
+// at any time.
+void tell_standing_targets(const SceneDescription& scene, const Trajectory& trajectory,
+                           core::ProblemList& problems);
 
 }  // namespace fanbeam::scenes

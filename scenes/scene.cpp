@@ -108,8 +108,10 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
         scene_caster(description, options.caster, setting.volume, bodies.solids, problems);
   }
   check_surfaces(description, library, names.used(), problems);
-  if (setting.trajectory)
+  if (setting.trajectory) {
     check_flight(description, setting.frame, *setting.trajectory, ground.field(), problems);
+    tell_standing_targets(description, *setting.trajectory, problems);
+  }
   problems.throw_if_errors();
 
   setting.runways = runway_places(description, ground);

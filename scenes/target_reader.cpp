@@ -20,6 +20,8 @@ constexpr core::NumberRange kSize_m{0.001, 100.0};
 constexpr core::NumberRange kWireRadius_m{1e-4, 10.0};
 constexpr core::NumberRange kAcrossWire_deg{0.0, 90.0};
 constexpr core::NumberRange kSpacing_m{0.01, 100.0};
+// On the flight's clock, which may count from 1970.
+constexpr core::NumberRange kTimes_s{-1e10, 1e10, true};
 
 materials::RoundWire read_wire(ConfigTable& table, double usual_polarisation_rad) {
   materials::RoundWire wire;
@@ -122,8 +124,9 @@ TargetDescription read_target(ConfigTable& table, const std::string& usual_name,
       static_cast<core::Swerling>(table.integer("swerling", 0, 4, static_cast<int>(usual)));
   std::vector<ConfigTable> waypoints = table.tables("waypoint");
   for (ConfigTable& waypoint : waypoints) {
-    const double time_s = waypoint.required_number("time_s", {-1e6, 1e6});
-    if (!target.path.empty() && time_s <= target.path.back().time_s)
+    const double time_s = waypoint.required_number("time_s", kTimes_s);
+    // One that is wrong, and told, reads as the low end.
+    if (!target.path.empty() && time_s > kTimes_s.low && time_s <= target.path.back().time_s)
       waypoint.error(core::ErrorClass::time, "time_s", core::number_text(time_s),
                      "later than the waypoint before");
     target.path.push_back(

@@ -37,6 +37,12 @@ std::vector<renderer::PointTarget> targets_of(const TemporaryFolder& folder,
   return tests::good_scene(folder, dark)->world.targets;
 }
 
+std::string driving_car(const std::string& first_s, const std::string& last_s) {
+  return "\n[[target]]\nname = \"car\"\nrcs = { rcs_dBsm = 10.0 }\n[[target.waypoint]]\ntime_s = " +
+         first_s + "\n" + kAt + "[[target.waypoint]]\ntime_s = " + last_s +
+         "\nat = { runway = \"36\", behind_threshold_m = 200.0 }\n";
+}
+
 std::vector<core::Problem> warnings_of(const TemporaryFolder& folder, const std::string& tables) {
   const tests::Outcome outcome = tests::build_text(folder, kSmallScene + tables);
   REQUIRE(outcome.scene != nullptr);
@@ -211,6 +217,57 @@ TEST_CASE("Wrong names and keys of point scatterers", "[targets][bad_scene]") {
   CHECK(problems(line("model = \"wire\"\nradius_m = -0.01"))[0].starts_with(
       "E-RANGE line[0].radius_m"));
   CHECK(problems("object_library = \"none.toml\"\n").empty() == false);
+}
+
+TEST_CASE("A target moves on the flight's clock, in Unix time too, and one that never does is told",
+          "[targets]") {
+  const TemporaryFolder folder;
+  std::string rows = "time_s,latitude_deg,longitude_deg,height_m,roll_deg,pitch_deg,heading_deg\n";
+  for (const char* row : {"0,52.0000", "1,52.0005", "2,52.0010", "3,52.0015", "4,52.0020"})
+    rows += "171593460" + std::string(row) + ",10,200,0,0,0\n";
+  folder.write("flight.csv", rows);
+  const std::string flight = tests::file_trajectory("vertical_datum = \"scene\"\n");
+  const auto built = [&](const std::string& first_s, const std::string& last_s) {
+    tests::Outcome outcome = tests::build_text(folder, flight + driving_car(first_s, last_s));
+    for (const core::Problem& problem : outcome.problems) UNSCOPED_INFO(core::to_string(problem));
+    REQUIRE(outcome.scene != nullptr);
+    std::erase_if(outcome.problems,
+                  [](const core::Problem& problem) { return problem.code != "W-STANDS"; });
+    return outcome;
+  };
+  const tests::Outcome moving = built("1715934600", "1715934604");
+  CHECK(moving.problems.empty());
+  const auto& targets = moving.scene->world.targets;
+  const auto car = std::find_if(targets.begin(), targets.end(),
+                                [](const auto& target) { return target.name == "car"; });
+  REQUIRE(car != targets.end());
+  CHECK(car->position_at(1715934602.0).y == Approx(150.0).epsilon(0.0).margin(1e-3));
+  CHECK(built("1715934603.9", "1715934610").problems.empty());
+
+  const tests::Outcome standing = built("0", "4");
+  REQUIRE(standing.problems.size() == 1);
+  CHECK(standing.problems[0].place.line > 0);
+  CHECK(standing.problems[0].value == "\"car\" on its way from 0 s to 4 s");
+  CHECK_THAT(standing.problems[0].expected,
+             Catch::EndsWith("on the same clock, is from 1715934600 s to 1715934604 s"));
+  CHECK(built("1715934604", "1715934610").problems.size() == 1);
+}
+
+TEST_CASE("Times of waypoints that are no times are told alone, not their order too",
+          "[targets][bad_scene]") {
+  const auto told = [](const std::string& first_s, const std::string& last_s) {
+    const TemporaryFolder folder;
+    std::vector<std::string> found;
+    for (const core::Problem& problem :
+         tests::build_text(folder, kSmallScene + driving_car(first_s, last_s)).problems)
+      found.push_back(problem.code + " " + problem.field);
+    return found;
+  };
+  using Found = std::vector<std::string>;
+  CHECK(told("-2e10", "-1.5e10") ==
+        Found{"E-RANGE target[0].waypoint[0].time_s", "E-RANGE target[0].waypoint[1].time_s"});
+  CHECK(told("3.0", "nan") == Found{"E-NONFINITE target[0].waypoint[1].time_s"});
+  CHECK(told("3.0", "3.0") == Found{"E-TIME target[0].waypoint[1].time_s"});
 }
 
 TEST_CASE("A bad waypoint of a target that swings is told with its line", "[targets][bad_scene]") {
