@@ -17,6 +17,12 @@ TEST_CASE("Degrees and radians agree at the cardinal angles and back", "[units]"
     CHECK(degrees(radians(angle_deg)) == Approx(angle_deg).epsilon(0.0).margin(1e-12));
 }
 
+TEST_CASE("rounded_degrees gives back the degrees of a file, and no -0", "[units]") {
+  for (int tenths = -3600; tenths <= 3600; ++tenths)
+    CHECK(rounded_degrees(radians(tenths / 10.0)) == tenths / 10.0);
+  CHECK_FALSE(std::signbit(rounded_degrees(-1e-12)));
+}
+
 TEST_CASE("wrap_360_deg stays inside the half-open circle, also just below zero", "[units]") {
   CHECK(wrap_360_deg(0.0) == 0.0);
   CHECK(wrap_360_deg(360.0) == 0.0);
