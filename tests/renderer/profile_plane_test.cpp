@@ -242,7 +242,8 @@ TEST_CASE("Rows of the C-scope over level ground follow the closed form, however
       }
       INFO("pitch " << of.pitch_deg << " deg, cone " << (of.surface == ScanSurface::cone));
       CHECK(known > 100);
-      // The density bends within a piece of up to 0.002 rad; 0.012 dB as measured, 0.1 if spread evenly.
-      CHECK(largest_dB < 0.015);
+      // The density bends within a piece of up to 0.002 rad: 0.012 dB as measured, 0.1 if spread evenly. In
+      // single rows 5 to 15 deg from straight below 0.026, and 0.2 if the far end were always the higher one.
+      CHECK(largest_dB < (of.pitch_deg < -45.0 ? 0.03 : 0.015));
     }
 }
