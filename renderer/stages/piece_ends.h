@@ -70,7 +70,7 @@ inline void find_rows(const LayerGrid& grid, const PiecePowers& powers, PieceEnd
   for (int i = 0; i < count; ++i) {
     const double high = high_row[i], low = low_row[i];
     const bool seen = (low >= 0.0) & (high < rows);
-    const double top = seen & (high > 0.0) ? high : 0.0;
+    const double top = (seen & (high > 0.0)) ? high : 0.0;
     const double bottom = low < lowest ? low : lowest;
     const auto first = static_cast<std::int32_t>(top);
     const auto last = static_cast<std::int32_t>(seen ? bottom : -1.0);
