@@ -61,16 +61,12 @@ ConfigTable ConfigTable::from_text(std::string_view text, const std::string& fil
   return table;
 }
 
-const void* ConfigTable::find(std::string_view key) {
+const void* ConfigTable::find(std::string_view key) const {
   document_->asked[table_].insert(std::string(key));
   return table_ == nullptr ? nullptr : static_cast<const toml::table*>(table_)->get(key);
 }
 
-bool ConfigTable::has(std::string_view key) const {
-  return table_ != nullptr && static_cast<const toml::table*>(table_)->contains(key);
-}
-
-bool ConfigTable::takes(std::string_view key) { return find(key) != nullptr; }
+bool ConfigTable::has(std::string_view key) const { return find(key) != nullptr; }
 
 bool ConfigTable::is_text(std::string_view key) const {
   return has(key) && static_cast<const toml::table*>(table_)->get(key)->is_string();

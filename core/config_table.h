@@ -36,10 +36,9 @@ class ConfigTable {
   static ConfigTable from_text(std::string_view text, const std::string& file_name,
                                ProblemList& problems);
 
+  // The key counts as asked for, as if it were read: a table of nothing but misspelt keys is told of, with
+  // the names that it could have.
   bool has(std::string_view key) const;
-  // The same of a key that is read only where it is there: it counts as asked for, so that a table of
-  // nothing but misspelt ones is told of, with the names that it could have.
-  bool takes(std::string_view key);
   // For keys that take a text or a table.
   bool is_text(std::string_view key) const;
   bool is_table(std::string_view key) const;
@@ -100,7 +99,7 @@ class ConfigTable {
  private:
   struct Document;
   ConfigTable() = default;
-  const void* find(std::string_view key);
+  const void* find(std::string_view key) const;
   template <class T>
   void record(std::string_view key, T value);
   std::optional<double> checked_number(std::string_view key, NumberRange range);

@@ -98,7 +98,7 @@ void read_campaign_table(ConfigTable table, Campaign& campaign, ReadFor purpose)
   const std::size_t level = table.choice("isa", {"v2", "v3", "v4"}, 1);
   campaign.isa = std::array{core::InstructionLevel::v2, core::InstructionLevel::v3,
                             core::InstructionLevel::v4}[level];
-  if (table.takes("realisation"))
+  if (table.has("realisation"))
     campaign.sample = table.choice("realisation", {"mean", "sample"}, 0) == 1;
   campaign.samples_per_cell = table.number("samples_per_cell", renderer::kSamplesPerCell, 0.0);
   campaign.sensor = table.text("sensor", "");
@@ -140,7 +140,7 @@ void read_parameters(ConfigTable table, const Reading& reading) {
   const auto read = [&](ConfigTable& part, std::string_view key, const Allowed& allowed) {
     return read_parameter(part, key, allowed, reading);
   };
-  if (table.takes("scene"))
+  if (table.has("scene"))
     campaign.parameters.push_back({"scene", read(table, "scene", campaign.scenes)});
   else if (campaign.scenes.size() > 1) {
     Distribution::Choice each;
@@ -148,12 +148,12 @@ void read_parameters(ConfigTable table, const Reading& reading) {
     each.weights.assign(each.values.size(), 1.0 / static_cast<double>(each.values.size()));
     campaign.parameters.push_back({"scene", Distribution(each)});
   }
-  if (table.takes("surface"))
+  if (table.has("surface"))
     campaign.parameters.push_back({"surface", read(table, "surface", surface_words())});
   for (const char* name : {"weather", "sensor", "flight"}) {
     ConfigTable part = table.table(name);
     for (const ParameterKind& kind : kParameters)
-      if (kind.table == std::string_view(name) && part.takes(kind.key))
+      if (kind.table == std::string_view(name) && part.has(kind.key))
         campaign.parameters.push_back(
             {std::string(name) + "." + kind.key, read(part, kind.key, kind.range)});
   }
@@ -186,7 +186,7 @@ void read_traffic(ConfigTable table, const Reading& reading) {
   campaign.traffic.push_back(name);
   const auto take = [&](const char* key, const core::NumberRange& range, double otherwise) {
     const std::string whole = "traffic." + name + "." + key;
-    campaign.parameters.push_back({whole, table.takes(key)
+    campaign.parameters.push_back({whole, table.has(key)
                                               ? read_parameter(table, key, range, reading)
                                               : Distribution(Value{otherwise})});
   };

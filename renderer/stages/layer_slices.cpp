@@ -168,8 +168,8 @@ FANBEAM_HOT(void, sort_in,
   PieceEnds ends;
   find_ends(grid, tables.nrcs(), pieces, powers, ends);
   find_cells(grid, pieces, powers, ends);
-  find_rows(grid, powers, ends);
   const bool with_rows = rows.size() > 0;
+  if (with_rows) find_rows(grid, powers, ends);
   for (int i = 0; i < pieces.count; ++i) {
     const PieceInCells piece{
         grid, pieces, powers, ends, azimuths_in(pieces.left[i], pieces.share[i]), i};

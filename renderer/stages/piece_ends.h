@@ -33,7 +33,7 @@ inline double between_0_and_1(double value) {
   return not_below < 1.0 ? not_below : 1.0;
 }
 
-// Whole numbers of all pieces at once: asked for one by one they took a seventh of the time of sorting.
+// Whole numbers of all pieces at once: asked for one by one they took a tenth to a seventh of the time of sorting.
 inline void find_cells(const LayerGrid& grid, const VisiblePieces& pieces,
                        const PiecePowers& powers, PieceEnds& ends) {
   const In near_m = powers.near_range_m.data(), far_m = powers.far_range_m.data();

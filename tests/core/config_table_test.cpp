@@ -68,9 +68,9 @@ TEST_CASE("Keys that are read where they are there alone are known in a table wi
           "[config_table]") {
   const auto found =
       problems_of("[air]\nvisibility = 100\n[[car]]\nalong = 5\n", [](ConfigTable& root) {
-        CHECK_FALSE(root.table("air").takes("visibility_m"));
+        CHECK_FALSE(root.table("air").has("visibility_m"));
         for (ConfigTable& car : root.tables("car"))
-          if (car.takes("along_m")) car.number("along_m", {}, 0.0);
+          if (car.has("along_m")) car.number("along_m", {}, 0.0);
         root.report_unknown_keys();
       });
   check(found, {"test.toml:2:1: E-REF air.visibility = unknown key: expected a key of this table, "

@@ -74,6 +74,16 @@ double volume_m3(const terrain::CityBuilding& building) {
   return sum_m3;
 }
 
+// The part is the house once more.
+json house_with_part() {
+  json city = tests::house();
+  json& objects = city["CityObjects"];
+  objects["part"] = objects["house"];
+  objects["part"]["type"] = "BuildingPart";
+  objects["part"]["parents"] = {"house"};
+  return city;
+}
+
 }  // namespace
 
 TEST_CASE("a house of CityJSON has the areas, the volume and the surfaces of its closed form",
@@ -196,11 +206,8 @@ TEST_CASE("all geometries of the highest level of detail are read", "[cityjson]"
 
 TEST_CASE("a building's block does not hide its finer parts, and coarser parts stay",
           "[cityjson]") {
-  json city = tests::house();
+  json city = house_with_part();
   json& objects = city["CityObjects"];
-  objects["part"] = objects["house"];
-  objects["part"]["type"] = "BuildingPart";
-  objects["part"]["parents"] = {"house"};
   const auto with_lods = [&](const char* building, const char* part) {
     objects["house"]["geometry"][0]["lod"] = building;
     objects["part"]["geometry"][0]["lod"] = part;
@@ -222,11 +229,8 @@ TEST_CASE("a building's block does not hide its finer parts, and coarser parts s
 // Where the reconstruction of a part had failed, three quarters of the building were missing.
 TEST_CASE("a building's block stays where one of its parts has nothing in its place",
           "[cityjson]") {
-  json city = tests::house();
+  json city = house_with_part();
   json& objects = city["CityObjects"];
-  objects["part"] = objects["house"];
-  objects["part"]["type"] = "BuildingPart";
-  objects["part"]["parents"] = {"house"};
   objects["house"]["geometry"][0]["lod"] = "1.2";
   objects["footprint"] = objects["part"];
   json& footprint = objects["footprint"]["geometry"][0];

@@ -57,25 +57,36 @@ void SliceDeposit::add(const VisiblePieces& pieces, const Slice& slice, const Si
   if (bins.across)
     add_across(pieces, slice, weights, powers, bins);
   else
-    add_in_column(pieces, slice, weights, powers, bins);
+    add_in_column(pieces, weights, powers, bins);
 }
 
-// Of the antenna's elevation of a point of the slice; in a cone scan that is atan2(up, forward).
-double SliceDeposit::sine_of(const Slice& slice, const SineWeights& weights, double distance_m,
-                             double height_m, double range_m) const {
-  if (world_.sensor.scan.surface != sensors::ScanSurface::cone)
+SliceDeposit::EndSines SliceDeposit::plane_sines(const VisiblePieces& pieces,
+                                                 const SineWeights& weights,
+                                                 const PiecePowers& powers, int i) const {
+  const auto sine = [&](double distance_m, double height_m, double range_m) {
     return (weights.along * distance_m + weights.up * height_m) / range_m;
-  const glm::dvec3 point(slice.along * distance_m, height_m);
-  const double f = glm::dot(point, antenna_.forward), u = glm::dot(point, antenna_.up);
-  return u / std::sqrt(f * f + u * u);
+  };
+  return {sine(pieces.near_distance_m[i], pieces.near_height_m[i], powers.near_range_m[i]),
+          sine(pieces.far_distance_m[i], pieces.far_height_m[i], powers.far_range_m[i])};
+}
+
+// A cone's elevation is atan2(up, forward).
+SliceDeposit::EndSines SliceDeposit::cone_sines(const VisiblePieces& pieces, const Slice& slice,
+                                                int i) const {
+  const auto sine = [&](double distance_m, double height_m) {
+    const glm::dvec3 point(slice.along * distance_m, height_m);
+    const double f = glm::dot(point, antenna_.forward), u = glm::dot(point, antenna_.up);
+    return u / std::sqrt(f * f + u * u);
+  };
+  return {sine(pieces.near_distance_m[i], pieces.near_height_m[i]),
+          sine(pieces.far_distance_m[i], pieces.far_height_m[i])};
 }
 
 // Of the power times R^3 over the elevations of piece i, from the higher of its ends to the lower one:
 // dP/de R^3 goes with g^2 [sigma0 / sin(psi)] R (slice_power.h), and evenly from end to end. The far end
 // is the lower one behind an antenna that looks straight down.
-double SliceDeposit::tilt_of(const VisiblePieces& pieces, const Slice& slice,
-                             const SineWeights& weights, const PiecePowers& powers, int i,
-                             const Rows& rows) const {
+double SliceDeposit::tilt_of(const VisiblePieces& pieces, const PiecePowers& powers, int i,
+                             const Rows& rows, const EndSines& sines) const {
   if (rows.low - rows.high <= 1.0) return 0.0;  // over two rows at most
   const double* const nrcs = tables_.nrcs() + pieces.material[i] * NrcsTable::kEntries;
   const double q_m = pieces.facet_m[i] / std::sqrt(pieces.facet_d2[i]);
@@ -84,19 +95,14 @@ double SliceDeposit::tilt_of(const VisiblePieces& pieces, const Slice& slice,
     const double* const value = nrcs + NrcsTable::index_of(std::max(q_m / range_m, 0.0), share);
     return tables_.gain_at(sine) * (value[0] + share * (value[1] - value[0])) * range_m;
   };
-  const double near_sine = sine_of(slice, weights, pieces.near_distance_m[i],
-                                   pieces.near_height_m[i], powers.near_range_m[i]);
-  const double far_sine = sine_of(slice, weights, pieces.far_distance_m[i], pieces.far_height_m[i],
-                                  powers.far_range_m[i]);
-  const double near = density(near_sine, powers.near_range_m[i]);
-  const double far = density(far_sine, powers.far_range_m[i]);
-  const double fall = near_sine < far_sine ? near - far : far - near;
+  const double near = density(sines.near, powers.near_range_m[i]);
+  const double far = density(sines.far, powers.far_range_m[i]);
+  const double fall = sines.near < sines.far ? near - far : far - near;
   return near + far > 0.0 ? fall / (near + far) : 0.0;
 }
 
-void SliceDeposit::add_in_column(const VisiblePieces& pieces, const Slice& slice,
-                                 const SineWeights& weights, PiecePowers& powers,
-                                 const SliceBins& bins) const {
+void SliceDeposit::add_in_column(const VisiblePieces& pieces, const SineWeights& weights,
+                                 PiecePowers& powers, const SliceBins& bins) const {
   double* range_bins = bins.range_W_per_rad;
   double* row_bins = bins.elevation_W_m3_per_rad;
   if (row_bins != nullptr)
@@ -113,12 +119,11 @@ void SliceDeposit::add_in_column(const VisiblePieces& pieces, const Slice& slice
   }
   if (most < PiecePowers::wedge) return;
   for (int i = 0; i < powers.count; ++i)
-    if (powers.kind[i] >= PiecePowers::wedge) add_special(pieces, slice, weights, powers, i, bins);
+    if (powers.kind[i] >= PiecePowers::wedge) add_special(pieces, weights, powers, i, bins);
 }
 
-void SliceDeposit::add_special(const VisiblePieces& pieces, const Slice& slice,
-                               const SineWeights& weights, const PiecePowers& powers, int i,
-                               const SliceBins& bins) const {
+void SliceDeposit::add_special(const VisiblePieces& pieces, const SineWeights& weights,
+                               const PiecePowers& powers, int i, const SliceBins& bins) const {
   const sensors::RangeGate& gate = world_.sensor.range;
   const double power_W_per_rad = powers.before_W_per_rad[i] + powers.behind_W_per_rad[i];
   if (powers.kind[i] == PiecePowers::wedge) {
@@ -130,7 +135,8 @@ void SliceDeposit::add_special(const VisiblePieces& pieces, const Slice& slice,
   const double range_m = powers.range_m[i];
   deposit(powers.high_row[i], powers.low_row[i], power_W_per_rad * range_m * range_m * range_m,
           bins.elevation_W_m3_per_rad + 1, world_.sensor.display.cscope_rows,
-          tilt_of(pieces, slice, weights, powers, i, {powers.high_row[i], powers.low_row[i]}));
+          tilt_of(pieces, powers, i, {powers.high_row[i], powers.low_row[i]},
+                  plane_sines(pieces, weights, powers, i)));
 }
 
 // Where the wedge at the middle of piece i lies in the antenna's azimuth, from that point and its
@@ -166,16 +172,14 @@ void SliceDeposit::add_across(const VisiblePieces& pieces, const Slice& slice,
       continue;
     const Sweep sweep = sweep_of(slice, powers, i, bins);
     if (!(sweep.solid_angle_ratio > 0.0)) continue;
+    const EndSines sines =
+        cone ? cone_sines(pieces, slice, i) : plane_sines(pieces, weights, powers, i);
     Rows rows{powers.high_row[i], powers.low_row[i]};
     if (cone) {
-      const double near_row =
-          tables_.row_at(sine_of(slice, weights, pieces.near_distance_m[i], pieces.near_height_m[i],
-                                 powers.near_range_m[i]));
-      const double far_row = tables_.row_at(sine_of(slice, weights, pieces.far_distance_m[i],
-                                                    pieces.far_height_m[i], powers.far_range_m[i]));
+      const double near_row = tables_.row_at(sines.near), far_row = tables_.row_at(sines.far);
       rows = {std::min(near_row, far_row), std::max(near_row, far_row)};
     }
-    rows.tilt = tilt_of(pieces, slice, weights, powers, i, rows);
+    rows.tilt = tilt_of(pieces, powers, i, rows, sines);
     const int first = std::max(static_cast<int>(std::floor(sweep.from)), 0);
     const int last = std::min(static_cast<int>(std::floor(sweep.to)), bins.sub_columns - 1);
     const double width = sweep.to - sweep.from;

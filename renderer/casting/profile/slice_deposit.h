@@ -35,9 +35,9 @@ class SliceDeposit {
            PiecePowers& powers, const SliceBins& bins) const;
 
  private:
-  void add_in_column(const VisiblePieces& pieces, const Slice& slice, const SineWeights& weights,
-                     PiecePowers& powers, const SliceBins& bins) const;
-  void add_special(const VisiblePieces& pieces, const Slice& slice, const SineWeights& weights,
+  void add_in_column(const VisiblePieces& pieces, const SineWeights& weights, PiecePowers& powers,
+                     const SliceBins& bins) const;
+  void add_special(const VisiblePieces& pieces, const SineWeights& weights,
                    const PiecePowers& powers, int i, const SliceBins& bins) const;
   // From and to in sub-columns.
   struct Sweep {
@@ -50,10 +50,15 @@ class SliceDeposit {
     double high, low;
     double tilt = 0.0;  // of deposit()
   };
-  double sine_of(const Slice& slice, const SineWeights& weights, double distance_m, double height_m,
-                 double range_m) const;
-  double tilt_of(const VisiblePieces& pieces, const Slice& slice, const SineWeights& weights,
-                 const PiecePowers& powers, int i, const Rows& rows) const;
+  // Of the antenna's elevation of a piece's ends.
+  struct EndSines {
+    double near, far;
+  };
+  EndSines plane_sines(const VisiblePieces& pieces, const SineWeights& weights,
+                       const PiecePowers& powers, int i) const;
+  EndSines cone_sines(const VisiblePieces& pieces, const Slice& slice, int i) const;
+  double tilt_of(const VisiblePieces& pieces, const PiecePowers& powers, int i, const Rows& rows,
+                 const EndSines& sines) const;
   void add_across(const VisiblePieces& pieces, const Slice& slice, const SineWeights& weights,
                   const PiecePowers& powers, const SliceBins& bins) const;
   void add_to_sub_column(const VisiblePieces& pieces, const PiecePowers& powers, int i,
