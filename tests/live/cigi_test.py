@@ -18,6 +18,9 @@ import unittest
 import urllib.request
 
 FANBEAM = os.path.abspath(sys.argv[1])
+# Ports of the host and of the image generator in captures. The true ones are the system's choice; of 33435 to 33464
+# TShark says "possible traceroute", whatever the datagram holds.
+CAPTURED = (8005, 8004)
 OPERATE = 0x31
 
 
@@ -39,12 +42,12 @@ class Host:
         head = self.pack("BBBbBBHIIII", 1, 24, 3, database, mode, 0, 0x8000, self.frame, 0, self.ig_frame, 0)
         message = head + b"".join(packets)
         self.wire.sendto(message, ("127.0.0.1", self.port))
-        self.keep(message, self.wire.getsockname()[1], self.port)
+        self.keep(message, *CAPTURED)
         return self.frame
 
     def receive(self):
         message = self.wire.recv(65536)
-        self.keep(message, self.port, self.wire.getsockname()[1])
+        self.keep(message, *reversed(CAPTURED))
         packets, at = [], 0
         while at < len(message):
             packets.append(message[at : at + message[at + 1]])
@@ -112,14 +115,13 @@ class Cigi(unittest.TestCase):
             return [line.split("\t") for line in told.splitlines()]
 
     def read(self, name, options):
-        ports = [option for port in self.ports for option in ("-d", f"udp.port=={port},cigi")]
+        ports = [option for port in CAPTURED for option in ("-d", f"udp.port=={port},cigi")]
         return subprocess.run(["tshark", "-n", "-r", name, *ports, *options], check=True, capture_output=True,
                               text=True).stdout
 
     def test_a_host_in_lockstep_gets_a_frame_for_each_message_at_the_pose_it_sent(self):
         for order in ("<", ">"):
             host = self.start("--lockstep", order=order)
-            self.ports = [host.port]
             with urllib.request.urlopen(f"{self.url}frames", timeout=60) as frames:
                 for i in range(6):
                     place = self.approach(i)
@@ -142,7 +144,6 @@ class Cigi(unittest.TestCase):
 
     def test_start_of_frame_comes_at_the_rate_and_the_picture_follows(self):
         host = self.start("--rate", "8")
-        self.ports = [host.port]
         host.send(host.entity(*self.approach(0)))
         begin, got = time.monotonic(), 0
         while time.monotonic() < begin + 4:
@@ -157,7 +158,6 @@ class Cigi(unittest.TestCase):
 
     def test_heights_materials_and_rain(self):
         host = self.start("--rate", "8")
-        self.ports = [host.port]
         latitude, longitude = 52.320297, 10.575681  # threshold 26, on the runway
         host.send(host.entity(latitude, longitude + 0.03, 300.0), host.height_request(7, latitude, longitude - 0.005, 400.0),
                   host.rain(4), host.pack("BB14x", 201, 16))
@@ -181,7 +181,6 @@ class Cigi(unittest.TestCase):
     def test_sensor_view_switches_and_time(self):
         for order in ("<", ">"):
             host = self.start("--lockstep", order=order)
-            self.ports = [host.port]
             with urllib.request.urlopen(f"{self.url}frames", timeout=60) as frames:
                 host.send(host.entity(*self.approach(0)),
                           host.pack("BBHBBBBffff", 17, 24, 1, 3, 1 | 2 << 5, 0, 0, 0.75, 0.25, 0.0, 0.5),
@@ -221,7 +220,6 @@ class Cigi(unittest.TestCase):
             file.write('[[database]]\nnumber = 2\nscene = "obstacle-field"\n[[database]]\nnumber = 3\nscene = "nowhere"\n')
         shared = f"fanbeam-cigi-{os.getpid()}"
         host = self.start("--rate", "8", "--to", f"shm:{shared}", scene=base)
-        self.ports = [host.port]
         told, numbers, shown = [], [], []
 
         def look():
