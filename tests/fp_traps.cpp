@@ -27,6 +27,8 @@ void __real_rtcIntersect1(RTCScene, RTCIntersectContext*, RTCRayHit*);
 void __real_rtcIntersect8(const int*, RTCScene, RTCIntersectContext*, RTCRayHit8*);
 void __real_rtcIntersect16(const int*, RTCScene, RTCIntersectContext*, RTCRayHit16*);
 void __real_rtcOccluded1(RTCScene, RTCIntersectContext*, RTCRay*);
+void __real_rtcOccluded8(const int*, RTCScene, RTCIntersectContext*, RTCRay8*);
+void __real_rtcOccluded16(const int*, RTCScene, RTCIntersectContext*, RTCRay16*);
 }
 
 namespace fanbeam::tests {
@@ -221,6 +223,16 @@ void __wrap_rtcIntersect16(const int* valid, RTCScene scene, RTCIntersectContext
 void __wrap_rtcOccluded1(RTCScene scene, RTCIntersectContext* context, RTCRay* ray) {
   const fanbeam::tests::HeldOff held_off;
   __real_rtcOccluded1(scene, context, ray);
+}
+void __wrap_rtcOccluded8(const int* valid, RTCScene scene, RTCIntersectContext* context,
+                         RTCRay8* rays) {
+  const fanbeam::tests::HeldOff held_off;
+  __real_rtcOccluded8(valid, scene, context, rays);
+}
+void __wrap_rtcOccluded16(const int* valid, RTCScene scene, RTCIntersectContext* context,
+                          RTCRay16* rays) {
+  const fanbeam::tests::HeldOff held_off;
+  __real_rtcOccluded16(valid, scene, context, rays);
 }
 
 }  // extern "C"

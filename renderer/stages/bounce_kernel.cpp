@@ -165,7 +165,8 @@ FANBEAM_HOT(void, measure_hits, (const BounceView& view, const CastRays& rays, R
     const double distance = static_cast<double>(rays.distance[i]);
     const double along_m = glm::length(along);
     const glm::dvec3 direction = (1.0 / along_m) * along;
-    const glm::dvec3 normal = (1.0 / glm::length(out)) * out;
+    // A ray that met nothing may have none.
+    const glm::dvec3 normal = (1.0 / std::max(glm::length(out), 1e-30)) * out;
     hits.direction.put(i, direction);
     hits.normal.put(i, normal);
     hits.point_m.put(i, origin_m + distance * along + caster_m);
