@@ -45,6 +45,8 @@ std::string markdown(const Report& report);
 
 // The section with the design's targets beside the figures.
 std::string targets_markdown(const Report& report);
+// Its row of layers.
+std::string layers_row(const std::vector<LayerCost>& costs);
 
 // The first screen: what sixteen and ninety pictures a second cost, and what of `targets`, as
 // targets_markdown gives it, was missed.

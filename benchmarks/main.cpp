@@ -25,7 +25,7 @@ constexpr std::uint64_t kLargestNotes_bytes = 1 << 20;
 
 constexpr const char* kUsage =
     "Usage: fanbeam_bench [--report FILE] [--no-report] [--no-cases] [--estimates] "
-    "[--no-estimates] [--campaigns] "
+    "[--no-estimates] [--campaigns] [--layers] "
     "[--quick] [--threads N] [--benchmark_...]\n"
     "\n"
     "  --report FILE   write the report there instead of to the standard output, and its plots\n"
@@ -35,6 +35,7 @@ constexpr const char* kUsage =
     "  --estimates     only the report's section on the errors that frames state; not timed\n"
     "  --no-estimates  the report without that section, in a quarter of the time\n"
     "  --campaigns     only what campaigns and city models cost\n"
+    "  --layers        only what layers cost, of every scene\n"
     "  --quick         coarse and short, to try the report: its figures mean nothing\n"
     "  --threads N     threads to use (2, which the targets are set for; 0 for all cores)\n"
     "  --benchmark_... options of google-benchmark, as --benchmark_filter=frame\n";
@@ -43,7 +44,7 @@ struct Options {
   std::string report_file;
   bool report = true;
   bool cases = true;
-  bool estimates = true, estimates_alone = false, campaigns_alone = false;
+  bool estimates = true, estimates_alone = false, campaigns_alone = false, layers_alone = false;
   bool quick = false;
   int threads = 2;
 };
@@ -64,6 +65,8 @@ Options parse(int count, char** arguments) {
       options.estimates_alone = true;
     } else if (argument == "--campaigns") {
       options.campaigns_alone = true;
+    } else if (argument == "--layers") {
+      options.layers_alone = true;
     } else if (argument == "--quick") {
       options.quick = true;
     } else if (argument == "--report" && has_value) {
@@ -180,6 +183,10 @@ void run(const Options& options) {
   if (options.campaigns_alone) {
     if (const auto figures = measure_campaigns(effort))
       fmt::print("{}{}", campaigns_markdown(*figures), campaign_rows(*figures));
+    return;
+  }
+  if (options.layers_alone) {
+    fmt::print("{}", layers_row(measure_layers(effort)));
     return;
   }
   std::vector<BenchScene> scenes;

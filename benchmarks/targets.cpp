@@ -302,17 +302,6 @@ std::string plan_rows(const PlanFigures& plan) {
   return out + absence.markdown();
 }
 
-std::string layers_row(const std::vector<LayerCost>& costs) {
-  TargetRow row("all scenes, frame with layers of both scopes over one without, default sampling",
-                fmt::format("{:.2f}", kLayers.must));
-  for (const LayerCost& cost : costs) {
-    row.add(fmt::format("{:.2f} {} ({:.1f} and {:.1f} ms)", cost.ratio(), cost.scene,
-                        cost.layers_ms, cost.plain_ms));
-    row.judge(cost.ratio(), kLayers);
-  }
-  return row.markdown();
-}
-
 std::string estimates_row(const std::vector<EstimateCase>& cases) {
   TargetRow row(
       fmt::format("all scenes, share of {} pictures whose error is within a factor of 1.5 of what "
@@ -325,6 +314,17 @@ std::string estimates_row(const std::vector<EstimateCase>& cases) {
 }
 
 }  // namespace
+
+std::string layers_row(const std::vector<LayerCost>& costs) {
+  TargetRow row("all scenes, frame with layers of both scopes over one without, default sampling",
+                fmt::format("{:.2f}", kLayers.must));
+  for (const LayerCost& cost : costs) {
+    row.add(fmt::format("{:.2f} {} ({:.1f} and {:.1f} ms)", cost.ratio(), cost.scene,
+                        cost.layers_ms, cost.plain_ms));
+    row.judge(cost.ratio(), kLayers);
+  }
+  return row.markdown();
+}
 
 std::string targets_markdown(const Report& report) {
   std::string out =
