@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <system_error>
 
 #include "core/files.h"
 #include "core/text.h"
@@ -283,9 +284,10 @@ void read_databases(ConfigTable& root, SceneDescription& scene) {
 
 SceneDescription read_scene(const fs::path& path, const SceneOptions& options,
                             core::ProblemList& problems) {
-  const fs::path file = fs::is_directory(path) ? path / "scene.toml" : path;
+  std::error_code unreadable;  // told where the file is read
+  const fs::path file = fs::is_directory(path, unreadable) ? path / "scene.toml" : path;
   SceneDescription scene;
-  scene.folder = fs::weakly_canonical(file).parent_path();
+  scene.folder = fs::weakly_canonical(file, unreadable).parent_path();
   ConfigTable root = ConfigTable::from_file(file, problems);
   if (!root.present()) return scene;
   std::vector<fs::path> data = options.data_folders;

@@ -179,6 +179,11 @@ TEST_CASE("Opening tells every problem of the setup, or of the scene, at once", 
   fanbeam_session* session = nullptr;
   CHECK(fanbeam_open("", &setup, &session) == FANBEAM_BAD_INPUT);
   CHECK(told("E-IO scene = \"\""));
+  const std::string too_long(300, 'x');  // for a name of a file
+  CHECK(fanbeam_open(too_long.c_str(), &setup, &session) == FANBEAM_BAD_INPUT);
+  INFO(fanbeam_last_error());
+  CHECK(told("E-IO"));
+  CHECK(told("File name too long"));
   setup.size = 72;
   CHECK(refused(tests::kSmallScene, setup) == FANBEAM_BAD_SIZE);
 
