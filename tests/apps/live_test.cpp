@@ -47,11 +47,11 @@ TEST_CASE("Without the geoid's grid a source that needs it is refused, others ar
 }
 
 TEST_CASE("Shared memory that live made goes with it", "[live]") {
-  const Result result =
-      run_fanbeam("live flat-grass --http 0 --seconds 1 --to shm:fanbeam_live_test");
+  const std::string name = "fanbeam_live_test_" + std::to_string(getpid());
+  const Result result = run_fanbeam("live flat-grass --http 0 --seconds 1 --to shm:" + name);
   INFO(result.output);
   CHECK(result.exit_code == 0);
-  CHECK_FALSE(std::filesystem::exists("/dev/shm/fanbeam_live_test"));
+  CHECK_FALSE(std::filesystem::exists("/dev/shm/" + name));
 }
 
 TEST_CASE("SIGTERM and SIGINT are the good end of live, while it opens its scene and later",

@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "tests/sensors/shipped_sensor.h"
+#include "tests/terrain/ascii_grid.h"
 
 using namespace fanbeam;
 using namespace fanbeam::sensors;
@@ -17,22 +18,6 @@ using core::radians;
 namespace {
 
 namespace fs = std::filesystem;
-
-class Folder {
- public:
-  Folder() : path_(fs::temp_directory_path() / "fanbeam_pattern_test") {
-    fs::remove_all(path_);
-    fs::create_directories(path_);
-  }
-  ~Folder() { fs::remove_all(path_); }
-  fs::path write(const std::string& name, const std::string& text) const {
-    core::write_file_atomically(path_ / name, text);
-    return path_ / name;
-  }
-
- private:
-  fs::path path_;
-};
 
 std::string rows(const std::string& keyword, const std::function<double(int)>& attenuation_dB) {
   std::string text = keyword + " 360\n";
@@ -78,7 +63,7 @@ std::string sensor_text(const std::string& elevation) {
 }  // namespace
 
 TEST_CASE("an MSI file's angles run to the right and downwards", "[pattern_file]") {
-  const Folder folder;
+  const tests::TemporaryFolder folder;
   const fs::path file = folder.write("a.msi", msi());
   core::ProblemList problems;
   const PatternCut across = read_pattern_cut(file, PatternPlane::azimuth, problems);
@@ -97,7 +82,7 @@ TEST_CASE("an MSI file's angles run to the right and downwards", "[pattern_file]
 }
 
 TEST_CASE("MSI gain is over a dipole unless it says dBi", "[pattern_file]") {
-  const Folder folder;
+  const tests::TemporaryFolder folder;
   core::ProblemList problems;
   for (const char* line : {"GAIN 17.85\n", "GAIN 17.85 dBd\n", "gain 17.85dBd \n"}) {
     const PatternCut cut =
@@ -113,7 +98,7 @@ TEST_CASE("MSI gain is over a dipole unless it says dBi", "[pattern_file]") {
 }
 
 TEST_CASE("hostile pattern files are refused with class, file and line", "[pattern_file]") {
-  const Folder folder;
+  const tests::TemporaryFolder folder;
   std::string many = "angle_deg,gain_dB\n", huge = many;
   for (int i = 0; i < 40000; ++i) many += std::to_string(-180.0 + i * 0.005) + ",0\n";
   for (int i = 0; i < 1000000; ++i) huge += "0.0,0\n";
@@ -167,7 +152,7 @@ TEST_CASE("hostile pattern files are refused with class, file and line", "[patte
 
 TEST_CASE("all bad rows of a pattern file are told at once, up to the list's end",
           "[pattern_file]") {
-  const Folder folder;
+  const tests::TemporaryFolder folder;
   const auto lines_of = [&](const char* name, const std::string& text) {
     std::vector<int> lines;
     for (const core::Problem& problem :
@@ -188,7 +173,7 @@ TEST_CASE("all bad rows of a pattern file are told at once, up to the list's end
 
 TEST_CASE("a sensor file takes a cut, and the gain only when it says so, from a file beside it",
           "[pattern_file]") {
-  const Folder folder;
+  const tests::TemporaryFolder folder;
   folder.write("beam.msi", msi());
   const std::string from_file =
       sensor_text("shape = \"file\"\nfile = \"beam.msi\"\ncut_deg = 60.0");
