@@ -103,6 +103,7 @@ void run_lockstep(session::Session& session, const Mailbox& mailbox,
       taken = letter.number;
       const double arrived_s = seconds_between(settings.begin, letter.arrived);
       if (settings.journal != nullptr) settings.journal->packet(arrived_s, letter.packet);
+      if (settings.before_letter) settings.before_letter(letter.number);
       const double now_s = maker.now_s();
       core::Pose pose = letter.pose;
       pose.time_s = time.next(letter.clock_s);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 
 #include "core/errors.h"
 #include "live/cigi_answers.h"
@@ -16,6 +17,8 @@ namespace cigi = feeds::cigi;
 
 constexpr std::int8_t kNoDatabase = -128;
 constexpr std::size_t kMostAsked = 1024, kMostPeriodic = 1024;
+// Messages whose conditions wait: as many as poses do. Those beyond are in force early.
+constexpr std::size_t kMostSaid = Mailbox::kKeptInLockstep;
 constexpr std::size_t kDatagram_bytes = 1400;  // stays whole on any network
 constexpr std::chrono::seconds kPatience(5);   // with a host that is silent
 constexpr double kAnyNumber_s = 1.0;           // of silence, after which any frame number counts
@@ -49,13 +52,15 @@ bool is_next(std::uint32_t frame, std::uint32_t than, double waited_s) {
 
 }  // namespace
 
-CigiIg::CigiIg(session::Session& session, core::VerticalDatum datum, std::size_t kept,
+CigiIg::CigiIg(session::Session& session, core::VerticalDatum datum, bool lockstep,
                const CigiStation& station)
     : session_(session),
       datum_(datum_of(session.scene()->description, datum)),
-      mailbox_(kept),
+      mailbox_(lockstep ? Mailbox::kKeptInLockstep : Mailbox::kKept),
       station_(station),
       entities_(datum_),
+      letter_(lockstep ? 0 : std::numeric_limits<std::uint64_t>::max()),
+      made_(letter_),
       conditions_(*session.scene()) {}
 
 void CigiIg::turn_away() {
@@ -119,7 +124,7 @@ void CigiIg::take(Heard heard) {
 void CigiIg::heed(const Heard& heard) {
   const cigi::HostMessage& message = heard.message;
   station_.heard = heard.arrived;
-  enter(message.control.mode);
+  Said said{mailbox_.count(), message.control.host_frame, enter(message.control.mode)};
   station_.control = message.control;
   if (station_.control.database != refused_) refused_ = 0;
   nonfinite_ += message.nonfinite;
@@ -129,8 +134,9 @@ void CigiIg::heed(const Heard& heard) {
   if (station_.control.timestamp_valid) clock_s = 1e-5 * station_.control.timestamp_10us;
   const double time_s = clock_s.value_or(seconds_between(station_.begin, heard.arrived));
   const auto scene = session_.scene();
-  for (const cigi::HostPacket& packet : message.packets) take(packet, time_s, scene->frame);
-  for (const std::string& why : conditions_.settle(*scene)) refuse(why);
+  for (const cigi::HostPacket& packet : message.packets) take(packet, time_s, scene->frame, said);
+  if (said.reset || !said.packets.empty()) said_.push_back(std::move(said));
+  heed_said(*scene);
   if (station_.control.mode != cigi::Mode::operate ||
       std::find(unplaced_.begin(), unplaced_.end(), view_.entity) != unplaced_.end())
     return;
@@ -146,38 +152,53 @@ void CigiIg::place(const cigi::EntityControl& packet, double time_s,
   if (placed != CigiEntities::Placed::yes) unplaced_.push_back(packet.entity);
 }
 
-// Reset: what the host says from then on counts, in standby too.
-void CigiIg::enter(cigi::Mode mode) {
-  if (mode != cigi::Mode::standby || station_.control.mode == cigi::Mode::standby) return;
+// Gives whether conditions are to be reset too. What the host says from then on counts, in standby too.
+bool CigiIg::enter(cigi::Mode mode) {
+  if (mode != cigi::Mode::standby || station_.control.mode == cigi::Mode::standby) return false;
   entities_.clear();
   periodic_.clear();
   asked_.clear();
   view_ = {};
   host_time_.clear();
-  conditions_.reset();
+  return true;
 }
 
-void CigiIg::take(const cigi::HostPacket& packet, double time_s, const terrain::LocalFrame& frame) {
-  const auto count = [&](std::uint8_t id, bool means_something) {
-    if (!means_something) ++passed_over_[id];
-  };
+void CigiIg::count_unless(bool means_something, std::uint8_t id) {
+  if (!means_something) ++passed_over_[id];
+}
+
+void CigiIg::take(const cigi::HostPacket& packet, double time_s, const terrain::LocalFrame& frame,
+                  Said& said) {
   std::visit(Overloaded{
                  [&](const cigi::EntityControl& one) { place(one, time_s, frame); },
                  [&](const cigi::RateControl& one) { entities_.move(one); },
                  [&](const cigi::ViewControl& one) { view_ = one; },
-                 [&](const cigi::ViewDefinition& one) { conditions_.take(one); },
-                 [&](const cigi::AtmosphereControl& one) { count(10, conditions_.take(one)); },
-                 [&](const cigi::WeatherControl& one) { count(12, conditions_.take(one)); },
-                 [&](const cigi::SurfaceConditions& one) { count(15, conditions_.take(one)); },
-                 [&](const cigi::SensorControl& one) { count(17, conditions_.take(one)); },
-                 [&](const cigi::ComponentControl& one) {
-                   count(one.brief ? 5 : 4, conditions_.take(one, station_.control.host_frame));
-                 },
-                 [&](const cigi::CelestialControl& one) { count(9, set(one)); },
+                 [&](const cigi::CelestialControl& one) { count_unless(set(one), 9); },
                  [&](const cigi::HeightRequest& one) { ask(one, one.update_period); },
                  [&](const cigi::SightRequest& one) { ask(one, one.update_period); },
+                 [&](const auto& of_conditions) { said.packets.emplace_back(of_conditions); },
              },
              packet);
+}
+
+// Packets that said.packets holds: take().
+void CigiIg::heed(const Said& said, const scenes::Scene& scene) {
+  if (said.reset) conditions_.reset();
+  for (const cigi::HostPacket& packet : said.packets)
+    std::visit(
+        Overloaded{
+            [&](const cigi::ViewDefinition& one) { conditions_.take(one); },
+            [&](const cigi::AtmosphereControl& one) { count_unless(conditions_.take(one), 10); },
+            [&](const cigi::WeatherControl& one) { count_unless(conditions_.take(one), 12); },
+            [&](const cigi::SurfaceConditions& one) { count_unless(conditions_.take(one), 15); },
+            [&](const cigi::SensorControl& one) { count_unless(conditions_.take(one), 17); },
+            [&](const cigi::ComponentControl& one) {
+              count_unless(conditions_.take(one, said.host_frame), one.brief ? 5 : 4);
+            },
+            [](const auto&) {},
+        },
+        packet);
+  for (const std::string& why : conditions_.settle(scene)) refuse(why);
 }
 
 bool CigiIg::set(const cigi::CelestialControl& packet) {
@@ -244,6 +265,35 @@ void CigiIg::apply(CigiConditions::Changes& changes) {
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const std::string& why : refusals) refuse(why);
   conditions_.settle(changes);
+  events_.insert(events_.end(), changes.events.begin(), changes.events.end());
+}
+
+// Those whose letters before are made: free-running, all.
+void CigiIg::heed_said(const scenes::Scene& scene) {
+  while (!said_.empty() && (said_.front().letters <= made_ || said_.size() > kMostSaid)) {
+    heed(said_.front(), scene);
+    said_.pop_front();
+  }
+}
+
+void CigiIg::come_into_force() {
+  const auto scene = session_.scene();
+  CigiConditions::Changes changes;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    heed_said(*scene);
+    changes = conditions_.changes();
+  }
+  apply(changes);
+}
+
+void CigiIg::begin_letter(std::uint64_t number) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    letter_ = number;
+    made_ = number - 1;  // those left out too
+  }
+  come_into_force();
 }
 
 std::int8_t CigiIg::wanted_database() const {
@@ -303,21 +353,21 @@ std::vector<std::uint8_t> CigiIg::answers(const scenes::Scene& scene, std::size_
 }
 
 std::vector<std::uint8_t> CigiIg::begin_frame(Clock::time_point now) {
-  CigiConditions::Changes changes;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    changes = conditions_.changes();
+    made_ = letter_;
   }
-  apply(changes);
+  come_into_force();
   const auto scene = session_.scene();
   const std::lock_guard<std::mutex> lock(mutex_);
   std::vector<std::uint8_t> message = start_of_frame(now);
   for (const std::string& why : std::exchange(refusals_, {}))
     append(message, cigi::ig_message(1, why));
-  for (const cigi::Event& event : changes.events) append(message, cigi::event_notification(event));
+  for (const cigi::Event& event : std::exchange(events_, {}))
+    append(message, cigi::event_notification(event));
   if (conditions_.response())
     append(message, cigi::sensor_response(*conditions_.response(), station_.control.host_frame));
-  append(message, answers(*scene, kDatagram_bytes - message.size()));
+  append(message, answers(*scene, kDatagram_bytes - std::min(kDatagram_bytes, message.size())));
   return message;
 }
 

@@ -7,7 +7,8 @@
 // timestamps where it has them. Only in mode operate; standby lets the picture stand, and going there
 // forgets what the host said: entities, questions, weather, ground, sensor and view are the scene's own.
 // Date and time of its world go into the status; the radar sees no sun.
-// Weather, ground, sensor and view: live/cigi_conditions.h.
+// Weather, ground, sensor and view: live/cigi_conditions.h. In force with the next frame; in lockstep with
+// that of their own message, whatever has come behind it.
 // Questions (cigi_answers.h) are answered in the next frame, periodic ones again and again; at most
 // what one datagram holds, the others in the frames after. Packets with no meaning here are counted by
 // name.
@@ -57,8 +58,8 @@ struct CigiStation {
 class CigiIg {
  public:
   // A host that asks for one of the station's other databases is told its number, negative, until it
-  // is open; for any other -128. `kept`: live/mailbox.h. `session` must outlive it.
-  CigiIg(session::Session& session, core::VerticalDatum datum, std::size_t kept = Mailbox::kKept,
+  // is open; for any other -128. `session` must outlive it.
+  CigiIg(session::Session& session, core::VerticalDatum datum, bool lockstep = false,
          const CigiStation& station = {});
 
   // Any bytes. `host`: who sent them.
@@ -70,8 +71,12 @@ class CigiIg {
   // Who is the host, as take() was told; empty before the first message.
   std::string host() const;
 
-  // What the host asked for in weather and surfaces comes into force, then the message of a frame at
-  // `now`: start of frame first. Call it before each frame.
+  // In lockstep, before the frame of a letter of the mailbox: what the host asked for up to that one's message
+  // comes into force.
+  void begin_letter(std::uint64_t number);
+  // What the host asked for in weather, surfaces, sensor and view comes into force, in lockstep what lies before
+  // the letters that have no frame yet; then the message of a frame at `now`: start of frame first. Call it
+  // before each frame, in lockstep behind it.
   std::vector<std::uint8_t> begin_frame(Clock::time_point now = Clock::now());
   // The number that the host asks for; the open one's where it leaves the choice to us, or asks for one
   // that was refused and for no other since.
@@ -94,13 +99,25 @@ class CigiIg {
     std::vector<std::uint8_t> datagram;
     Clock::time_point arrived;
   };
+  // What a message asks for in conditions, until it comes into force.
+  struct Said {
+    std::uint64_t letters = 0;  // that came before the message's own
+    std::uint32_t host_frame = 0;
+    bool reset = false;  // first
+    std::vector<feeds::cigi::HostPacket> packets{};
+  };
   bool is_of_host(const std::string& host, Clock::time_point arrived);
   void take(Heard heard);
   void heed(const Heard& heard);
   void place(const feeds::cigi::EntityControl& packet, double time_s,
              const terrain::LocalFrame& frame);
-  void enter(feeds::cigi::Mode mode);
-  void take(const feeds::cigi::HostPacket& packet, double time_s, const terrain::LocalFrame& frame);
+  bool enter(feeds::cigi::Mode mode);
+  void take(const feeds::cigi::HostPacket& packet, double time_s, const terrain::LocalFrame& frame,
+            Said& said);
+  void count_unless(bool means_something, std::uint8_t id);
+  void heed(const Said& said, const scenes::Scene& scene);
+  void heed_said(const scenes::Scene& scene);
+  void come_into_force();
   bool set(const feeds::cigi::CelestialControl& packet);
   void ask(const Question& question, std::uint8_t period);
   std::vector<std::uint8_t> answer(const scenes::Scene& scene, const Asked& asked) const;
@@ -122,10 +139,13 @@ class CigiIg {
   std::vector<std::uint16_t> unplaced_;  // entities, of the message that is being heeded
   std::deque<Asked> asked_;
   std::map<std::pair<std::size_t, std::uint16_t>, std::pair<Asked, std::uint8_t>> periodic_;
+  std::deque<Said> said_;        // oldest first
+  std::uint64_t letter_, made_;  // the newest whose frame was begun, and made; free-running: any
   CigiConditions conditions_;
-  std::string host_time_;              // that it says it is there, ISO 8601
-  std::int8_t refused_ = 0;            // database that cannot be opened; 0: none
-  std::vector<std::string> refusals_;  // to be told
+  std::vector<feeds::cigi::Event> events_{};  // in force, to be told
+  std::string host_time_;                     // that it says it is there, ISO 8601
+  std::int8_t refused_ = 0;                   // database that cannot be opened; 0: none
+  std::vector<std::string> refusals_;         // to be told
   std::uint64_t messages_ = 0, foreign_ = 0, late_ = 0, jumps_ = 0, nonfinite_ = 0;
   std::uint64_t impossible_ = 0, too_many_ = 0, unanswered_ = 0;
   std::array<std::uint64_t, 6> faults_{};

@@ -21,6 +21,8 @@ struct ChannelSettings {
   Clock::time_point begin = Clock::now();
   Journal* journal = nullptr;
   unsigned threads = std::thread::hardware_concurrency();  // that frames may take
+  // In lockstep: before the frame of a letter of the mailbox; none: nothing.
+  std::function<void(std::uint64_t number)> before_letter{};
   // What is done to a frame before it is shown; none: nothing.
   std::function<void(LiveFrame&)> dress{};
   bool keep_received = false;  // LiveFrame::received_W

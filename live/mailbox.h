@@ -64,6 +64,11 @@ class Mailbox {
     const std::lock_guard<std::mutex> lock(mutex_);
     return letters_.empty() ? std::nullopt : std::optional(letters_.back().source);
   }
+  // How many came so far.
+  std::uint64_t count() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return count_;
+  }
   // Those kept that came after the letter of that number, oldest first.
   std::vector<Letter> after(std::uint64_t number) const {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -13,11 +13,12 @@ Listener::Source::Source(const PosesFrom& told, const session::Session& session,
            told.protocol ? *told.protocol : feeds::kProtocols[0], std::move(mailbox), number) {}
 
 Listener::Listener(const std::vector<PosesFrom>& from, session::Session& session, double rate_Hz,
-                   std::size_t kept, const CigiStation& station) {
-  const auto mailbox = std::make_shared<Mailbox>(kept);
+                   bool lockstep, const CigiStation& station) {
+  const auto mailbox =
+      std::make_shared<Mailbox>(lockstep ? Mailbox::kKeptInLockstep : Mailbox::kKept);
   for (const PosesFrom& one : from) {
     sources_.emplace_back(one, session, mailbox, sources_.size());
-    if (one.cigi) ig_.emplace(session, one.datum, kept, station);
+    if (one.cigi) ig_.emplace(session, one.datum, lockstep, station);
     if (one.subscribes())
       xplane_.emplace(one.beacon ? std::nullopt : std::optional(one.listens_at), rate_Hz,
                       sources_.back().feed);
@@ -110,6 +111,10 @@ void Listener::before_frame(Network& network) {
     network.send(*stated, std::move(message));
   else if (!host.empty())
     network.send(parse_endpoint(host, "--from"), std::move(message));
+}
+
+void Listener::before_letter(std::uint64_t number) {
+  if (ig_) ig_->begin_letter(number);
 }
 
 void Listener::leave(Network& network) {

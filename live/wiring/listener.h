@@ -19,9 +19,9 @@ namespace fanbeam::live {
 
 class Listener {
  public:
-  // `kept`: live/mailbox.h. `from` and `session` must outlive it, and it the networks that it is given.
+  // `from` and `session` must outlive it, and it the networks that it is given.
   Listener(const std::vector<PosesFrom>& from, session::Session& session, double rate_Hz,
-           std::size_t kept, const CigiStation& station);
+           bool lockstep, const CigiStation& station);
 
   // Before the network starts; not in a replay.
   void listen(Network& network);
@@ -30,6 +30,8 @@ class Listener {
   // No more is asked for.
   void leave(Network& network);
   void tell(Status& status) const;
+  // In lockstep, before the frame of a letter of the mailbox.
+  void before_letter(std::uint64_t number);
   // Of a CIGI host: what it wants to see of a frame. Empty for others.
   std::function<void(LiveFrame&)> dress() const;
   const Mailbox& mailbox() const { return ig_ ? ig_->mailbox() : sources_.front().feed.mailbox(); }

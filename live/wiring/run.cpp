@@ -87,8 +87,7 @@ class LiveRun {
         scene_(session_->scene()),
         rate_Hz_(rate_of()),
         desk_(make_desk()),
-        listener_(wiring.from, *session_, rate_Hz_,
-                  settings.lockstep ? Mailbox::kKeptInLockstep : Mailbox::kKept, continued.station),
+        listener_(wiring.from, *session_, rate_Hz_, settings.lockstep, continued.station),
         network_(desk_, hub_),
         show_(calls.status()) {
     Status status;
@@ -139,6 +138,7 @@ class LiveRun {
     };
     ChannelSettings settings{rate_Hz_, samples(), begin, journal_ ? &*journal_ : nullptr};
     settings.dress = listener_.dress();
+    settings.before_letter = [this](std::uint64_t number) { listener_.before_letter(number); };
     settings.keep_received = wiring_.to.want_received();
     settings.newest_number = continued_.newest_number;
     if (settings_.threads > 0) settings.threads = static_cast<unsigned>(settings_.threads);

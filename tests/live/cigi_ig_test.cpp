@@ -100,7 +100,7 @@ TEST_CASE(
   live::CigiStation before;
   before.others = {2, 3};
   before.ig_frame = 77;
-  CigiIg ig(*session, core::VerticalDatum::scene, live::Mailbox::kKept, before);
+  CigiIg ig(*session, core::VerticalDatum::scene, false, before);
   std::uint32_t number = 0;
   const auto told = [&](std::int8_t database) {
     ig.take(message(++number, {}, kOperate, false, database), "a:1");
@@ -122,7 +122,7 @@ TEST_CASE(
   // Whoever waits for us is told of the next frame without asking again.
   const live::CigiStation after = ig.station();
   CHECK(after.host == "a:1");
-  CigiIg next(*session, core::VerticalDatum::scene, live::Mailbox::kKept, after);
+  CigiIg next(*session, core::VerticalDatum::scene, false, after);
   CHECK(next.host() == "a:1");
   const auto first = packets_in(next.begin_frame());
   CHECK(first[0].second.at<std::uint32_t>(8) == 77 + 6 + 1);

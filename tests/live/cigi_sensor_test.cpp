@@ -4,6 +4,8 @@
 
 #include "core/files.h"
 #include "core/units.h"
+#include "live/channel.h"
+#include "live/flights.h"
 #include "tests/live/cigi_station.h"
 
 using namespace fanbeam;
@@ -35,7 +37,72 @@ Bytes component(std::uint16_t number, std::uint8_t state, float word = 0.0F, std
       .bytes();
 }
 
+// What a host in lockstep sees that asks for something else with each frame: `together` sends all its messages
+// before the first frame, else it waits for each frame.
+std::vector<std::shared_ptr<const live::LiveFrame>> lockstep_frames(bool together) {
+  const tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  const auto scene = session->scene();
+  const auto at = [&](double time_s) {
+    const core::Geodetic place = live::circle(*scene)(time_s).position;
+    return entity(core::degrees(place.latitude_rad), core::degrees(place.longitude_rad),
+                  place.height_m);
+  };
+  const std::vector<Bytes> messages{
+      message(1, {at(0.0), weather(4, 0.0F, 0.0F, 5), component(1, 1, -6.0F)}),
+      message(2, {sensor_control(0, 0.5F, 0.5F, 0.0F)}),  // at the place as it was
+      message(3, {at(0.0), sensor_control(1, 0.9F, 0.5F, 0.0F), weather(4, 0.0F, 0.0F, 0)}),
+      message(4, {}, kStandby),  // no pose, and a reset before the next frame
+      message(5, {at(0.0)})};
+  CigiIg ig(*session, core::VerticalDatum::scene, true);
+  std::size_t heard = 0;
+  const auto hear = [&] { ig.take(messages[heard++], "host"); };
+  hear();
+  while (together && heard < messages.size()) hear();
+  live::Hub hub;
+  core::StopSource stop;
+  std::vector<std::shared_ptr<const live::LiveFrame>> frames;
+  live::ChannelSettings settings{.samples = 1.0};
+  settings.before_letter = [&](std::uint64_t number) { ig.begin_letter(number); };
+  settings.dress = [&](live::LiveFrame& frame) { ig.dress(frame); };
+  const auto told = [&](live::Status&) {
+    if (const auto newest = hub.newest(); newest && newest->number > frames.size())
+      frames.push_back(newest);
+    ig.begin_frame();
+    if (frames.size() == 4) stop.request();
+    if (heard < messages.size()) hear();
+  };
+  live::run_lockstep(*session, ig.mailbox(), settings, hub, told, stop.token());
+  return frames;
+}
+
 }  // namespace
+
+// Conditions came into force with the frame after their message, or with any before it that waited.
+TEST_CASE("In lockstep what a host asks for is of its own message's frame, however many wait",
+          "[cigi]") {
+  const auto one_by_one = lockstep_frames(false), together = lockstep_frames(true);
+  REQUIRE(one_by_one.size() == 4);
+  REQUIRE(together.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    INFO(i);
+    CHECK(one_by_one[i]->bscope.pixels == together[i]->bscope.pixels);
+    CHECK(one_by_one[i]->cscope.pixels == together[i]->cscope.pixels);
+  }
+  const auto conditions = [&](std::size_t i) { return together[i]->scene; };
+  CHECK(conditions(0)->weather.rain_rate_mm_per_h == 50.0);
+  CHECK(conditions(0)->description.sensor.antenna.boresight_elevation_rad == core::radians(-6.0));
+  const auto is_black = [&](std::size_t i) {
+    const auto& pixels = together[i]->bscope.pixels;
+    return std::all_of(pixels.begin(), pixels.end(), [](std::uint8_t grey) { return grey == 0; });
+  };
+  CHECK(!is_black(0));
+  CHECK(is_black(1));
+  CHECK(!is_black(2));
+  CHECK(conditions(2)->weather.rain_rate_mm_per_h == 0.0);
+  CHECK(conditions(2)->description.sensor.antenna.boresight_elevation_rad == core::radians(-6.0));
+  CHECK(conditions(3)->description.sensor.antenna.boresight_elevation_rad != core::radians(-6.0));
+}
 
 TEST_CASE("Gain, level and noise of a host set the display's levels and the noise figure",
           "[cigi]") {

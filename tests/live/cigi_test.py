@@ -191,10 +191,8 @@ class Cigi(unittest.TestCase):
                 told = {}
                 while not {106, 116} <= told.keys():
                     told.update((packet[0], packet) for packet in host.receive())
-                # In force with the frame after.
-                host.send(host.entity(*self.approach(1)))
-                for _ in range(2):
-                    head, pictures = frames.read(int.from_bytes(frames.read(4), "little")).split(b"\n", 1)
+                # In force with the message's own frame.
+                head, pictures = frames.read(int.from_bytes(frames.read(4), "little")).split(b"\n", 1)
                 columns, rows = json.loads(head)["bscope"]
             # The view is from 1000 to 2000 m: cells of 6.67 m from 200 m on, the top row the farthest.
             lit = {row for row in range(rows) if any(pictures[row * columns : (row + 1) * columns])}

@@ -400,7 +400,7 @@ TEST_CASE(
         std::vector<std::pair<std::string, std::uint64_t>>{{"a step that no aircraft makes", 19}});
   // A CIGI host's too.
   const std::vector<live::PosesFrom> host{live::poses_from("cigi:8000")};
-  live::Listener(host, *session, 16.0, live::Mailbox::kKept, {}).tell(status);
+  live::Listener(host, *session, 16.0, false, {}).tell(status);
   CHECK(status.bad_packets.size() == 1);
 }
 
