@@ -165,7 +165,9 @@ Endpoint parse_endpoint(const std::string& text, const std::string& field) {
     core::throw_input_error(core::ErrorClass::range, field, "\"" + text + "\"",
                             "a port from 0 (any that is free) to 65535");
   endpoint.address = parse_address(endpoint.address, field);
-  endpoint.beyond_loopback = !asio::ip::make_address(endpoint.address).is_loopback();
+  const asio::ip::address address = asio::ip::make_address(endpoint.address);
+  endpoint.beyond_loopback = !address.is_loopback();
+  endpoint.multicast = address.is_multicast();
   return endpoint;
 }
 

@@ -25,6 +25,7 @@ struct Endpoint {
   std::string address = "127.0.0.1";
   std::uint16_t port = 0;  // 0: any that is free
   bool beyond_loopback = false;
+  bool multicast = false;
 };
 
 // Whose datagrams count: anybody's, or those from these addresses.

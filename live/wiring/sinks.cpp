@@ -79,6 +79,13 @@ RadarVideoSettings video_to(const std::string& text) {
   if (six && !video.interface.empty())
     core::throw_input_error(core::ErrorClass::unsupported, "--to", "\"" + text + "\"",
                             "interface= of IPv4 alone");
+  const bool for_groups = std::any_of(
+      words.options.begin(), words.options.end(),
+      [](const auto& option) { return option.first == kInterface || option.first == kHops; });
+  if (for_groups && !video.to.multicast)
+    core::throw_input_error(core::ErrorClass::unsupported, "--to", "\"" + text + "\"",
+                            "interface= and hops= with a multicast address alone, such as "
+                            "239.255.35.240");
   return video;
 }
 

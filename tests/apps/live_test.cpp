@@ -296,11 +296,14 @@ TEST_CASE("What cannot be of sources and sinks is told all at once, before anyth
       film +
       " --to cat240:127.0.0.1:0 --to cat240:127.0.0.1:8600,bits=9 "
       "--to cat240:127.0.0.1:8600,source=1/256 --to cat240:[::1]:8600,interface=127.0.0.1 "
-      "--to cat240:127.0.0.1:8600,hops=-1 --to cat240:nowhere:8600 --to cat420:127.0.0.1:8600");
+      "--to cat240:127.0.0.1:8600,hops=-1 --to cat240:nowhere:8600 --to cat420:127.0.0.1:8600 "
+      "--to cat240:127.0.0.1:8600,hops=2 --to cat240:127.0.0.1:8600,interface=127.0.0.1");
   CHECK(result.exit_code == 2);
-  for (const char* told : {"no peer= of xplane", "a port from 1", "bits=8 or bits=16",
-                           "source=SAC/SIC", "interface= of IPv4", "hops=N",
-                           "an address in numbers", "\"cat420:127.0.0.1:8600\"", "8 errors"}) {
+  for (const char* told :
+       {"no peer= of xplane", "a port from 1", "bits=8 or bits=16", "source=SAC/SIC",
+        "interface= of IPv4", "hops=N", "127.0.0.1:8600,hops=2\"",
+        "127.0.0.1:8600,interface=127.0.0.1\"", "with a multicast address", "an address in numbers",
+        "\"cat420:127.0.0.1:8600\"", "10 errors"}) {
     INFO(told << "\n" << result.output);
     CHECK(result.output.find(told) != std::string::npos);
   }
