@@ -182,8 +182,9 @@ class Campaign(unittest.TestCase):
         # Slurm notices after SlurmdTimeout, requeues, and would let two minutes pass before it begins again.
         cluster.wait(lambda: "Restarts=1" in cluster.run("scontrol", "show", "job", array), 60, "requeued shard")
         lost = cluster.run("squeue", "-h", "-r", "-t", "PD", "-j", array, "-o", "%i").split()
-        self.assertEqual(len(lost), 1)
-        cluster.run("scontrol", "update", f"JobId={lost[0]}", "StartTime=now")
+        self.assertGreaterEqual(len(lost), 1)  # on a slow machine shards that have not begun are among them
+        for task in lost:
+            cluster.run("scontrol", "update", f"JobId={task}", "StartTime=now")
         cluster.wait(lambda: cluster.run("squeue", "-h").strip() == "", 120, "empty queue")
         taken_s = time.monotonic() - begin
 

@@ -372,6 +372,8 @@ class Page(unittest.TestCase):
 
     def test_rain_set_on_the_page_dims_what_lies_far_and_the_plan_says_so(self):
         # Near the antenna it sends more than it takes: where the flight is by now must not matter.
+        # Not before the approach sees ground that far: rain has nothing to dim in what is black.
+        self.wait(lambda: self.far_mean() > 80, "ground far away")
         dry = self.far_mean()
         rain = self.page.find_element("id", "rain")
         rain.send_keys(Keys.END)

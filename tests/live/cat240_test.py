@@ -20,6 +20,7 @@ FRAMES, PERIOD_S = 3, 1 / 16
 # Of flat-grass's sensor, sensors/hivision.toml.
 COLUMNS, ROWS, FIELD_OF_VIEW_DEG, GATE_M, CELL_M = 164, 524, 41.0, 200.0, 6.67
 C_MPS = 299792458.0
+SO_RCVBUFFORCE = 33  # asm-generic/socket.h
 FIELDS = ("010_SAC", "010_SIC", "000_VALUE", "020_VALUE", "041_STARTAZ", "041_ENDAZ", "041_STARTRG", "041_CELLDUR", "048_C",
           "048_RES", "049_NBVB", "049_NBCELLS", "140_VALUE")
 
@@ -29,7 +30,10 @@ class Display:
 
     def __init__(self, group=None):
         self.wire = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        self.wire.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 24)
+        try:
+            self.wire.setsockopt(socket.SOL_SOCKET, SO_RCVBUFFORCE, 1 << 24)
+        except PermissionError:  # then as much as net.core.rmem_max allows
+            self.wire.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 24)
         self.wire.bind((group or "127.0.0.1", 0))
         if group:
             join = socket.inet_aton(group) + socket.inet_aton("127.0.0.1")
@@ -154,8 +158,10 @@ class RadarVideo(unittest.TestCase):
 
     def test_columns_are_spread_over_the_period(self):
         display, _ = self.fly()
-        sweep = [at for at, message in zip(display.times_s, display.messages) if message[7] == 2][:COLUMNS]
-        self.assertGreater(sweep[-1] - sweep[0], 0.5 * PERIOD_S)  # no burst; slower on a busy machine
+        at_s = [at for at, message in zip(display.times_s, display.messages) if message[7] == 2]
+        sweeps_s = [at_s[i + COLUMNS - 1] - at_s[i] for i in range(0, FRAMES * COLUMNS, COLUMNS)]
+        # No burst; slower on a busy machine, where this process may also read one late.
+        self.assertGreater(max(sweeps_s), 0.5 * PERIOD_S)
 
     def test_true_bearings_are_those_from_the_nose_and_the_heading_that_the_summary_tells(self):
         nose, bearing = self.fly()[0], self.fly(",azimuth=true")[0]
