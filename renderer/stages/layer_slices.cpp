@@ -6,8 +6,8 @@
 #include "core/dispatch.h"
 #include "renderer/casting/profile/piece_loops.h"
 #include "renderer/plan/largest_echo.h"
+#include "renderer/stages/layer_pieces.h"
 #include "renderer/stages/piece_ends.h"
-#include "renderer/stages/wide_pieces.h"
 #include "sensors/antenna/beam_pattern.h"
 
 namespace fanbeam::renderer {
@@ -214,7 +214,7 @@ void LayerSlices::add(std::size_t i, LayerCells& ranges, LayerCells& rows) const
   buffers.pieces.count = buffers.parts.count = 0;
   const auto sort = [&](VisiblePieces& pieces) { add(slice, pieces, ranges, rows); };
   const auto empty = [&](VisiblePieces& pieces) {
-    split_wide_pieces(pieces, buffers.parts, sort);
+    fit_pieces(pieces, buffers.parts, sort);
     sort(pieces);
   };
   SliceSweep(frame_.world, frame_.antenna.position_m, frame_.edges, frame_.dark_below,

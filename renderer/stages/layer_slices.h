@@ -1,11 +1,12 @@
 // Ground truth from azimuth slices (casting/profile): what the slice of a column sees, in the cells of
 // both scopes. Private to the layers.
 //
-// Each visible piece lies on one facet of one surface, and spans at most 8 mrad of elevation: its power,
-// by the equation of slice_power.h, is shared among the cells that it crosses by the elevations that
-// they take of it, that of an oblique wall by ranges. Over so short a piece ranges are linear in their
-// inverse, but for the piece right below the antenna. NRCS and grazing angle are those in the middle of
-// what a cell has. What is partly beyond the antenna's pattern is told to within 8 mrad of its end.
+// Each visible piece lies on one facet of one surface, or on several of one plane (layer_pieces.h), and
+// spans at most 8 mrad of elevation: its power, by the equation of slice_power.h, is shared among the
+// cells that it crosses by the elevations that they take of it, that of an oblique wall by ranges. Over so
+// short a piece ranges are linear in their inverse, but for the piece right below the antenna. NRCS and
+// grazing angle are those in the middle of what a cell has. What is partly beyond the antenna's pattern is
+// told to within 8 mrad of its end.
 #pragma once
 
 #include <cstddef>

@@ -17,6 +17,8 @@ using namespace fanbeam;
 
 namespace {
 
+const materials::PhongNrcs kLevelGrass(0.0325, 0.136, 1.99);
+
 renderer::LayerSet truth_of(const renderer::World& world, double height_m, bool of_cscope) {
   const renderer::FrameLayers layers =
       *renderer::render_frame(world, renderer::sampling_for(1.0),
@@ -125,7 +127,7 @@ TEST_CASE("Roofs below the antenna's pattern are not told", "[layer_slices]") {
     boxes[k].mesh.object_of_part = {static_cast<terrain::ObjectId>(k + 1)};
   const renderer::World world =
       tests::world(sensor, tests::ground(4000.0, 50.0, [](double, double) { return 0.0; }),
-                   {materials::PhongNrcs(0.0325, 0.136, 1.99)}, boxes);
+                   {kLevelGrass}, boxes);
   const renderer::LayerSet truth = truth_of(world, 100.0, false);
   int of_object[3] = {};
   for (std::size_t i = 0; i < truth.visibility.size(); ++i)
@@ -140,7 +142,7 @@ TEST_CASE("Level ground is told as it is whatever the distance of its posts", "[
   for (const double spacing_m : {20.0, 1000.0}) {
     const renderer::World world =
         tests::world(sensor, tests::ground(4000.0, spacing_m, [](double, double) { return 0.0; }),
-                     {materials::PhongNrcs(0.0325, 0.136, 1.99)});
+                     {kLevelGrass});
     const renderer::LayerSet truth = truth_of(world, 100.0, false);
     int lit = 0;
     for (int row = 0; row < sensor.range.cells; ++row) {
@@ -160,8 +162,38 @@ TEST_CASE("Level ground is told as it is whatever the distance of its posts", "[
       const double grazing = std::sin(static_cast<double>(truth.grazing_rad[i]));
       CHECK(grazing > 100.0 / far_m * 0.9999);
       CHECK(grazing < 100.0 / near_m * 1.0001);
+      const double told_dB =
+          10.0 * std::log10(static_cast<double>(truth.nrcs[i]) / kLevelGrass.sigma0(grazing));
+      CHECK(std::abs(told_dB) < 0.005);
     }
     CHECK(lit > 400);
+  }
+}
+
+// Pieces of one plane go together: of a plain that bends with the Earth they lie in one almost.
+TEST_CASE("Ground that bends with the Earth is told as it bends", "[layer_slices]") {
+  const sensors::Sensor sensor = tests::hivision(8);
+  constexpr double kRadius_m = 6.371e6;
+  const renderer::World world = tests::world(
+      sensor,
+      tests::ground(
+          4000.0, 20.0,
+          [](double x_m, double y_m) { return -(x_m * x_m + y_m * y_m) / (2.0 * kRadius_m); }),
+      {kLevelGrass});
+  const renderer::LayerSet truth = truth_of(world, 100.0, false);
+  for (int row = 16; row < sensor.range.cells; ++row) {
+    const std::size_t i = static_cast<std::size_t>(row) * 8 + 3;
+    const double range_m = sensors::range_middle_m(sensor.range, row);
+    INFO(range_m);
+    REQUIRE(truth.visibility[i] == 1.0F);
+    // Of the sphere that touches below the antenna, 100 m above it.
+    const double sine = 100.0 / range_m - range_m / (2.0 * kRadius_m);
+    const double half_cell = sensor.range.cell_m / range_m / 2.0;
+    const double grazing = std::sin(static_cast<double>(truth.grazing_rad[i]));
+    CHECK(grazing == Approx(sine).epsilon(half_cell + 0.003));
+    const double told_dB =
+        10.0 * std::log10(static_cast<double>(truth.nrcs[i]) / kLevelGrass.sigma0(grazing));
+    CHECK(std::abs(told_dB) < 0.01);
   }
 }
 

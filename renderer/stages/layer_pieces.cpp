@@ -1,6 +1,7 @@
-#include "renderer/stages/wide_pieces.h"
+#include "renderer/stages/layer_pieces.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fanbeam::renderer {
 namespace {
@@ -33,12 +34,36 @@ void copy_part(const VisiblePieces& from, int i, double begin, double end, Visib
   pieces.left[to] = from.left[i];
 }
 
+// Takes piece `from` into piece `to` if it goes on in its plane. What both span stays so small that range, pattern
+// and NRCS are those of one piece: farther ends at most 5 % farther, and a quarter of kMostSpan_rad.
+bool join(VisiblePieces& pieces, int to, int from) {
+  constexpr double kOnePlane = 2e-3, kOneTilt = 1e-4, kFarther = 1.1;
+  const auto alike = [&](const auto& column) { return column[to] == column[from]; };
+  const double facet_m = pieces.facet_m[to], d2 = pieces.facet_d2[to];
+  if (!(std::abs(pieces.facet_m[from] - facet_m) <= kOnePlane * facet_m) ||
+      !(std::abs(pieces.facet_d2[from] - d2) <= kOneTilt * d2) ||
+      pieces.near_distance_m[from] != pieces.far_distance_m[to] ||
+      pieces.near_height_m[from] != pieces.far_height_m[to] ||
+      !(pieces.far_distance_m[from] <= kFarther * pieces.near_distance_m[to]))
+    return false;
+  if (!alike(pieces.material) || !alike(pieces.object) || !alike(pieces.share) ||
+      !alike(pieces.left) || pieces.farther_m[to] > 0.0 || pieces.farther_m[from] > 0.0)
+    return false;
+  const double cross_m2 = pieces.cross_m2[to] + pieces.cross_m2[from];
+  if (!(cross_m2 <= kMostSpan_rad / 2 * nearest2_m2(pieces, to))) return false;
+  pieces.cross_m2[to] = cross_m2;
+  pieces.far_distance_m[to] = pieces.far_distance_m[from];
+  pieces.far_height_m[to] = pieces.far_height_m[from];
+  return true;
+}
+
 }  // namespace
 
-void split_wide_pieces(VisiblePieces& pieces, VisiblePieces& parts, const SliceSweep::Full& full) {
+void fit_pieces(VisiblePieces& pieces, VisiblePieces& parts, const SliceSweep::Full& full) {
   int kept = 0;
   for (int i = 0; i < pieces.count; ++i) {
     if (!(pieces.cross_m2[i] > 0.0)) continue;
+    if (kept > 0 && join(pieces, kept - 1, i)) continue;
     const int count = parts_of(pieces.cross_m2[i], nearest2_m2(pieces, i), kMostSpan_rad);
     if (count == 1) {
       if (kept != i) copy_part(pieces, i, 0.0, 1.0, pieces, kept);
