@@ -87,7 +87,9 @@ double largest(const Shape& shape, double wavelength_m) {
 }
 
 double largest(const RoundWire& wire, double wavelength_m) {
-  return 2.0 * evaluate(wire, kBroadside, wavelength_m);
+  const double coherent_m = coherent_length_m(wire);
+  return wire.length_m / coherent_m *
+         largest_round_wire_rcs_m2(wire.radius_m, coherent_m, wire.polarisation_rad, wavelength_m);
 }
 
 double largest(const LobedRcs& object, double) {

@@ -87,8 +87,7 @@ void check_rcs_model(const RcsModel& model);
 double rcs_m2(const RcsModel& model, const glm::dvec3& direction_to_radar_in_target_axes,
               double wavelength_m);
 
-// Upper bound over all directions. Exact peaks, but for the round wire: twice its broadside, since
-// its series may be somewhat larger off it. Wavelength as above.
+// Upper bound over all directions. Exact peaks, but for the round wire (round_wire.h). Wavelength as above.
 double largest_rcs_m2(const RcsModel& model, double wavelength_m);
 
 // 2 D^2 / lambda, D the largest dimension that must add up in phase: the mouth's diagonal, the

@@ -109,6 +109,29 @@ TEST_CASE("The thin-wire formula must not be used for a 20 mm wire at 35 GHz", "
   CHECK(dB(kPi / (kPi * kPi / 4.0 + log * log) / exact_m2) < -10.0);
 }
 
+// Twice its broadside was told: thin wires lean so far across the field that T and V cancel there, and not off it.
+TEST_CASE("No wire sends more than the largest that is told of it", "[materials][rcs]") {
+  double tightest = 1e300;
+  for (double ka = 0.01; ka < 80.0; ka *= 1.17) {
+    const double lambda_m = 2.0 * kPi / ka;  // radius 1 m
+    for (double polarisation_deg = 0.0; polarisation_deg <= 90.0; polarisation_deg += 1.0)
+      for (const double kl : {0.5, 30.0}) {
+        INFO("ka " << ka << ", kL " << kl << ", field at " << polarisation_deg << " deg");
+        const RoundWire wire{1.0, kl / ka, radians(polarisation_deg)};
+        const double most_m2 = largest_rcs_m2(wire, lambda_m);
+        double sent_m2 = 0.0;
+        for (double e_deg = 0.0; e_deg < 90.0; e_deg += 3.0)
+          sent_m2 = std::max(
+              sent_m2,
+              rcs_m2(wire, {std::cos(radians(e_deg)), 0.0, std::sin(radians(e_deg))}, lambda_m));
+        REQUIRE(sent_m2 <= most_m2);
+        if (polarisation_deg == 0.0) CHECK(most_m2 < 1.09 * sent_m2);
+        tightest = std::min(tightest, most_m2 / sent_m2);
+      }
+  }
+  CHECK(tightest < 1.03);
+}
+
 TEST_CASE("A wire flashes at broadside: half power at 0.443 lambda / 2L, first null at lambda / 2L",
           "[materials][rcs]") {
   const double lambda_m = core::kSpeedOfLight_mps / 35e9;
