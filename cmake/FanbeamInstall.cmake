@@ -8,6 +8,7 @@ install(TARGETS fanbeam)
 install(DIRECTORY "${PROJECT_BINARY_DIR}/man1" DESTINATION "${CMAKE_INSTALL_MANDIR}")
 install(FILES "${PROJECT_BINARY_DIR}/completion.bash" RENAME fanbeam
         DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")
+install(TARGETS fanbeam_pictures EXPORT fanbeamTargets)
 install(TARGETS fanbeam_session_signal EXPORT fanbeamTargets)  # its headers lie below session/
 foreach(folder core feeds materials atmosphere terrain sensors signal tracking renderer scenes session)
   install(TARGETS fanbeam_${folder} EXPORT fanbeamTargets)

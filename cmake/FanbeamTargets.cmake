@@ -5,6 +5,7 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 include(GNUInstallDirs)
+set(CMAKE_BUILD_RPATH "${PROJECT_BINARY_DIR}/lib")  # for libfanbeam-pictures.so
 
 add_library(fanbeam_options INTERFACE)
 target_compile_options(fanbeam_options INTERFACE

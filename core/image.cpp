@@ -1,11 +1,12 @@
 #include "core/image.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
+#include <OpenImageIO/oiioversion.h>
+#include <dlfcn.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "core/codec/image_codec_private.h"
 #include "core/colour_picture.h"
 #include "core/errors.h"
 #include "core/exr_check.h"
@@ -23,25 +24,35 @@ std::size_t cells(int columns, int rows) {
   return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
 }
 
-// `name` has the format's ending.
-std::string encoded(const std::string& name, OIIO::ImageSpec& spec, const Metadata& metadata,
-                    OIIO::TypeDesc type, const void* pixels) {
-  for (const auto& [name, value] : metadata) spec.attribute(name, value);
-  const std::unique_ptr<OIIO::ImageOutput> output =
-      OIIO::ImageOutput::create(name.substr(name.rfind('.') + 1));
-  if (!output) throw InternalError("no writer of " + name + ": " + OIIO::geterror());
-  OIIO::Filesystem::IOVecOutput bytes;
-  if (!output->set_ioproxy(&bytes) || !output->open(name, spec) ||
-      !output->write_image(type, pixels) || !output->close())
-    throw InternalError("writing " + name + " to memory: " + output->geterror());
-  const std::vector<unsigned char>& buffer = bytes.buffer();
-  return {reinterpret_cast<const char*>(buffer.data()), buffer.size()};
+// Looked for where the program or library that holds this code looks for its own.
+const ImageCodec& load_codec() {
+  constexpr const char* kLibrary = "libfanbeam-pictures.so.0";
+  void* const library = dlopen(kLibrary, RTLD_LAZY | RTLD_LOCAL);
+  void* const entry = library != nullptr ? dlsym(library, "fanbeam_image_codec") : nullptr;
+  if (entry == nullptr)
+    throw_input_error(ErrorClass::io, Place{kLibrary}, "", dlerror(),
+                      "the part of fanbeam that reads and writes pictures");
+  return *reinterpret_cast<decltype(&fanbeam_image_codec)>(entry)();
+}
+
+const ImageCodec& codec() {
+  static const ImageCodec& loaded = load_codec();
+  return loaded;
+}
+
+std::string encoded(const PixelsToEncode& pixels) {
+  std::string fault;
+  std::string bytes = codec().encode(pixels, fault);
+  if (!fault.empty() || bytes.empty())
+    throw InternalError("writing " + pixels.name + " to memory: " + fault);
+  return bytes;
 }
 
 // Through memory: the libraries' own file output does not tell when the disk is full.
-void write(const std::filesystem::path& path, OIIO::ImageSpec& spec, const Metadata& metadata,
-           OIIO::TypeDesc type, const void* pixels) {
-  write_file_atomically(path, encoded(path.filename().string(), spec, metadata, type, pixels));
+void write(const std::filesystem::path& path, PixelsToEncode pixels, const Metadata& metadata) {
+  pixels.name = path.filename().string();
+  pixels.texts.insert(pixels.texts.end(), metadata.begin(), metadata.end());
+  write_file_atomically(path, encoded(pixels));
 }
 
 // Keeps sizes that a file only claims away from every allocation.
@@ -57,7 +68,7 @@ void check_size(const Place& place, std::int64_t columns, std::int64_t rows,
                       "at most " + std::to_string(kMostValues) + " values");
 }
 
-std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
+std::unique_ptr<ImageFile> open(const std::filesystem::path& path) {
   const Place place{path.string()};
   if (!std::filesystem::is_regular_file(path))
     throw_input_error(ErrorClass::io, place, "", "missing", "an image file");
@@ -71,100 +82,88 @@ std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
   check_exr(path, [&](const ClaimedSize& claimed) {
     check_size(place, claimed.columns, claimed.rows, 1);
   });
-  std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
-  if (!input) throw_input_error(ErrorClass::parse, place, "", OIIO::geterror(), "an image file");
-  return input;
+  std::string fault;
+  std::unique_ptr<ImageFile> file = codec().open(path.string(), fault);
+  if (!file) throw_input_error(ErrorClass::parse, place, "", fault, "an image file");
+  return file;
 }
 
 // Of a grey or a coloured picture.
 template <class AnyPicture>
-OIIO::ImageSpec picture_spec(const AnyPicture& picture) {
+PixelsToEncode pixels_of(const AnyPicture& picture, const char* name) {
   using Pixel = typename decltype(picture.pixels)::value_type;
   if (picture.pixels.size() != cells(picture.columns, picture.rows))
     throw InternalError("picture size");
-  return {picture.columns, picture.rows, static_cast<int>(sizeof(Pixel)), OIIO::TypeDesc::UINT8};
-}
-
-template <class AnyPicture>
-OIIO::ImageSpec png_spec(const AnyPicture& picture) {
-  OIIO::ImageSpec spec = picture_spec(picture);
-  spec.attribute("png:compressionLevel", 2);  // writing must not hold up rendering
-  return spec;
+  return {.name = name,
+          .columns = picture.columns,
+          .rows = picture.rows,
+          .channels = static_cast<int>(sizeof(Pixel)),
+          .bytes = reinterpret_cast<const std::uint8_t*>(picture.pixels.data())};
 }
 
 }  // namespace
 
 void write_png(const std::filesystem::path& path, const Picture8& picture,
                const Metadata& metadata) {
-  OIIO::ImageSpec spec = png_spec(picture);
-  write(path, spec, metadata, OIIO::TypeDesc::UINT8, picture.pixels.data());
+  write(path, pixels_of(picture, ""), metadata);
 }
 
 void write_png(const std::filesystem::path& path, const ColourPicture& picture,
                const Metadata& metadata) {
   static_assert(sizeof(Colour) == 3);
-  OIIO::ImageSpec spec = png_spec(picture);
-  write(path, spec, metadata, OIIO::TypeDesc::UINT8, picture.pixels.data());
+  write(path, pixels_of(picture, ""), metadata);
 }
 
-std::string png_bytes(const Picture8& picture) {
-  OIIO::ImageSpec spec = png_spec(picture);
-  return encoded("memory.png", spec, {}, OIIO::TypeDesc::UINT8, picture.pixels.data());
-}
+std::string png_bytes(const Picture8& picture) { return encoded(pixels_of(picture, "memory.png")); }
 
 std::string jpeg_bytes(const Picture8& picture) {
-  OIIO::ImageSpec spec = picture_spec(picture);
-  spec.attribute("Compression", "jpeg:90");
-  return encoded("memory.jpeg", spec, {}, OIIO::TypeDesc::UINT8, picture.pixels.data());
+  PixelsToEncode pixels = pixels_of(picture, "memory.jpeg");
+  pixels.texts = {{"Compression", "jpeg:90"}};
+  return encoded(pixels);
 }
 
 void write_exr(const std::filesystem::path& path, const Image& image, const Metadata& metadata) {
   const auto layers = image.layers.size();
-  OIIO::ImageSpec spec(image.columns, image.rows, static_cast<int>(layers), OIIO::TypeDesc::FLOAT);
-  spec.channelnames.clear();
-  for (const Image::Layer& layer : image.layers) spec.channelnames.push_back(layer.name);
-  spec.attribute("compression", "zip");
-  spec.attribute("DateTime", "");  // else the time of writing
   const std::size_t count = cells(image.columns, image.rows);
-  std::vector<float> pixels(count * layers);
+  std::vector<float> values_of_pixels(count * layers);
+  PixelsToEncode pixels{.columns = image.columns,
+                        .rows = image.rows,
+                        .channels = static_cast<int>(layers),
+                        .floats = values_of_pixels.data(),
+                        // No date: else the time of writing.
+                        .texts = {{"compression", "zip"}, {"DateTime", ""}}};
   for (std::size_t layer = 0; layer < layers; ++layer) {
     const std::vector<double>& values = image.layers[layer].values;
     if (values.size() != count) throw InternalError("size of layer " + image.layers[layer].name);
+    pixels.channel_names.push_back(image.layers[layer].name);
     for (std::size_t i = 0; i < count; ++i)
-      pixels[i * layers + layer] = static_cast<float>(values[i]);
+      values_of_pixels[i * layers + layer] = static_cast<float>(values[i]);
   }
-  write(path, spec, metadata, OIIO::TypeDesc::FLOAT, pixels.data());
+  write(path, std::move(pixels), metadata);
 }
 
-Metadata read_metadata(const std::filesystem::path& path) {
-  const std::unique_ptr<OIIO::ImageInput> input = open(path);
-  Metadata metadata;
-  for (const OIIO::ParamValue& attribute : input->spec().extra_attribs)
-    if (attribute.type() == OIIO::TypeDesc::STRING)
-      metadata.emplace_back(attribute.name().string(), attribute.get_string());
-  return metadata;
-}
+Metadata read_metadata(const std::filesystem::path& path) { return open(path)->texts(); }
 
 ImageSize image_size(const std::filesystem::path& path) {
-  const std::unique_ptr<OIIO::ImageInput> input = open(path);
-  return {input->spec().width, input->spec().height, input->spec().nchannels};
+  const std::unique_ptr<ImageFile> file = open(path);
+  return {file->columns(), file->rows(), file->channels()};
 }
 
 Image read_image(const std::filesystem::path& path) {
   const Place place{path.string()};
-  const std::unique_ptr<OIIO::ImageInput> input = open(path);
-  const OIIO::ImageSpec& spec = input->spec();
-  check_size(place, spec.width, spec.height, spec.nchannels);
-  const double largest = spec.format == OIIO::TypeDesc::UINT8    ? 255.0
-                         : spec.format == OIIO::TypeDesc::UINT16 ? 65535.0
-                                                                 : 0.0;
-  const auto channels = static_cast<std::size_t>(spec.nchannels);
-  std::vector<float> pixels(cells(spec.width, spec.height) * channels);
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()))
-    throw_input_error(ErrorClass::parse, place, "", input->geterror(), "a complete image");
-  Image image{spec.width, spec.height, {}};
+  const std::unique_ptr<ImageFile> file = open(path);
+  check_size(place, file->columns(), file->rows(), file->channels());
+  const std::vector<std::string> names = file->channel_names();
+  const auto channels = static_cast<std::size_t>(file->channels());
+  const double largest = file->depth() == ImageFile::Depth::bits_8    ? 255.0
+                         : file->depth() == ImageFile::Depth::bits_16 ? 65535.0
+                                                                      : 0.0;
+  std::vector<float> pixels(cells(file->columns(), file->rows()) * channels);
+  if (std::string fault; !file->read(pixels.data(), fault))
+    throw_input_error(ErrorClass::parse, place, "", fault, "a complete image");
+  Image image{file->columns(), file->rows(), {}};
   for (std::size_t channel = 0; channel < channels; ++channel) {
-    Image::Layer layer{spec.channelnames[channel], {}};
+    Image::Layer layer{names[channel], {}};
     layer.values.reserve(pixels.size() / channels);
     for (std::size_t i = channel; i < pixels.size(); i += channels)
       layer.values.push_back(largest > 0.0 ? std::round(static_cast<double>(pixels[i]) * largest)

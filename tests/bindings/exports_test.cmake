@@ -1,5 +1,6 @@
-# What libfanbeam.so shows is what its header declares, fanbeam_* alone, and it does not need FFTW, which is GPL.
-# Called with -D LIBRARY, HEADER, NM, READELF.
+# What libfanbeam.so shows is what its header declares, fanbeam_* alone, and it does not need FFTW, which is GPL. Neither
+# it nor the program loads OpenImageIO and its 160 libraries before the first picture.
+# Called with -D LIBRARY, PROGRAM, HEADER, NM, READELF.
 execute_process(COMMAND "${NM}" -D --defined-only "${LIBRARY}" OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "[^\n]+" lines "${lines}")
 set(shown "")
@@ -25,4 +26,8 @@ endif()
 execute_process(COMMAND "${READELF}" -d "${LIBRARY}" OUTPUT_VARIABLE needed COMMAND_ERROR_IS_FATAL ANY)
 if(needed MATCHES "fftw" OR NOT needed MATCHES "libembree" OR NOT needed MATCHES "SONAME[^\n]*libfanbeam\\.so\\.0\\]")
   message(FATAL_ERROR "${LIBRARY} needs FFTW, has another soname, or nothing is known of it:\n${needed}")
+endif()
+execute_process(COMMAND "${READELF}" -d "${PROGRAM}" OUTPUT_VARIABLE more COMMAND_ERROR_IS_FATAL ANY)
+if("${needed}${more}" MATCHES "OpenImageIO|fanbeam-pictures" OR NOT more MATCHES "libfftw")
+  message(FATAL_ERROR "pictures are loaded at the start, or nothing is known of ${PROGRAM}:\n${needed}${more}")
 endif()

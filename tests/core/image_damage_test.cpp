@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "core/image_compare.h"
+#include "core/picture_bytes.h"
 #include "tests/core/file_checks.h"
 #include "tests/core/image_files.h"
 #include "tests/peak_memory.h"
@@ -79,6 +80,7 @@ TEST_CASE("F08 image bombs are E-LIMIT or E-PARSE before anything is allocated",
     std::uint32_t columns, rows;
     const char* code;
   };
+  png_bytes({1, 1, {0}});  // loads the library of pictures
   const fanbeam::tests::PeakMemory memory;
   for (const Bomb& bomb :
        {Bomb{65535, 65535, "E-LIMIT"}, Bomb{0, 0, "E-PARSE"}, Bomb{0, 5, "E-PARSE"},

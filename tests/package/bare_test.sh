@@ -25,7 +25,7 @@ cp -- "$packages"/*.deb "$bare/root/"
 rm -f -- "$bare/etc/dpkg/dpkg.cfg.d/excludes"
 
 step "install: fanbeam python3-fanbeam"
-in_bare bash -c 'cd /root && apt-get install -y --no-install-recommends ./fanbeam_*.deb ./fanbeam-data_*.deb ./python3-fanbeam_*.deb man-db' >"$scratch/install.log" 2>&1
+in_bare bash -c 'cd /root && apt-get install -y --no-install-recommends ./fanbeam_*.deb ./fanbeam-data_*.deb ./libfanbeam-pictures0_*.deb ./python3-fanbeam_*.deb man-db' >"$scratch/install.log" 2>&1
 in_bare fanbeam --version
 in_bare bash -c 'cd /root && fanbeam render --frames 0 -o pictures >/dev/null && test -s pictures/bscope/00000.png && test -s pictures/cscope/00000.png'
 in_bare bash -c 'man -P cat fanbeam-render 2>/dev/null | grep -q frames'
@@ -48,7 +48,7 @@ cp -r -- "$source/tests/install/consumer" "$bare/root/"
 in_bare bash -c 'cd /root && cmake -G Ninja -S consumer -B built -DCMAKE_BUILD_TYPE=Release >/dev/null && cmake --build built >/dev/null && built/consumer /usr/share/fanbeam flat-grass'
 
 step "remove all of them"
-in_bare apt-get purge -y fanbeam fanbeam-data python3-fanbeam libfanbeam0 libfanbeam-dev >>"$scratch/install.log" 2>&1
+in_bare apt-get purge -y fanbeam fanbeam-data python3-fanbeam libfanbeam0 libfanbeam-pictures0 libfanbeam-dev >>"$scratch/install.log" 2>&1
 left="$(find "$bare/usr" "$bare/etc" "$bare/var/lib" -iname '*fanbeam*' -not -path '*/dpkg/*' -not -path '*/apt/*')"
 [[ -z $left ]] || { printf 'left behind:\n%s\n' "$left" >&2; exit 1; }
 leave
