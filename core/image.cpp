@@ -28,11 +28,11 @@ std::size_t cells(int columns, int rows) {
 const ImageCodec& load_codec() {
   constexpr const char* kLibrary = "libfanbeam-pictures.so.0";
   void* const library = dlopen(kLibrary, RTLD_LAZY | RTLD_LOCAL);
-  void* const entry = library != nullptr ? dlsym(library, "fanbeam_image_codec") : nullptr;
+  void* const entry = library != nullptr ? dlsym(library, "fanbeam_image_codec_1") : nullptr;
   if (entry == nullptr)
     throw_input_error(ErrorClass::io, Place{kLibrary}, "", dlerror(),
                       "the part of fanbeam that reads and writes pictures");
-  return *reinterpret_cast<decltype(&fanbeam_image_codec)>(entry)();
+  return *reinterpret_cast<decltype(&fanbeam_image_codec_1)>(entry)();
 }
 
 const ImageCodec& codec() {

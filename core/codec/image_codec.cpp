@@ -77,7 +77,7 @@ class Codec final : public ImageCodec {
 }  // namespace
 }  // namespace fanbeam::core
 
-const fanbeam::core::ImageCodec* fanbeam_image_codec() {
+const fanbeam::core::ImageCodec* fanbeam_image_codec_1() {
   static const fanbeam::core::Codec codec;
   return &codec;
 }

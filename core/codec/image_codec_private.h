@@ -50,5 +50,6 @@ class ImageCodec {
 
 }  // namespace fanbeam::core
 
-// The library's one symbol.
-extern "C" [[gnu::visibility("default")]] const fanbeam::core::ImageCodec* fanbeam_image_codec();
+// The library's one symbol. Its number rises with every change of what stands above: another version's library is
+// none.
+extern "C" [[gnu::visibility("default")]] const fanbeam::core::ImageCodec* fanbeam_image_codec_1();

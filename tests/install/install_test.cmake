@@ -107,4 +107,17 @@ if(PKG_CONFIG)
   run("${CMAKE_COMMAND}" -E env "LD_LIBRARY_PATH=${folder}" "${SCRATCH}/by_pkg_config"
       "${prefix}/share/fanbeam" "${scene}")
 endif()
+
+# Without the library of pictures all goes on but pictures, of which it is told what is missing.
+file(GLOB_RECURSE pictures "${prefix}/*/libfanbeam-pictures.so*")
+if(NOT pictures)
+  message(FATAL_ERROR "no library of pictures in ${prefix}")
+endif()
+file(REMOVE ${pictures})
+run("${prefix}/bin/fanbeam" list)
+execute_process(COMMAND "${prefix}/bin/fanbeam" render flat-grass -o "${SCRATCH}/none" RESULT_VARIABLE result
+                OUTPUT_VARIABLE output ERROR_VARIABLE output)
+if(NOT result EQUAL 4 OR NOT output MATCHES "libfanbeam-pictures.so.0.*the part of fanbeam that reads and writes pictures")
+  message(FATAL_ERROR "without its library of pictures render ended with ${result}:\n${output}")
+endif()
 file(REMOVE_RECURSE "${SCRATCH}")
