@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/picture_bytes.h"
 #include "core/stop.h"
 #include "live/watchers_private.h"
 
@@ -256,6 +257,8 @@ Network::~Network() {
 }
 
 std::uint16_t Network::serve(const Endpoint& endpoint) {
+  // Where pictures cannot be made, that is told now and not at a client's request.
+  core::png_bytes({.columns = 1, .rows = 1, .pixels = {0}});
   const tcp::endpoint at(asio::ip::make_address(endpoint.address), endpoint.port);
   auto acceptor = std::make_unique<tcp::acceptor>(inside_->context);
   error_code error;

@@ -120,4 +120,9 @@ execute_process(COMMAND "${prefix}/bin/fanbeam" render flat-grass -o "${SCRATCH}
 if(NOT result EQUAL 4 OR NOT output MATCHES "libfanbeam-pictures.so.0.*the part of fanbeam that reads and writes pictures")
   message(FATAL_ERROR "without its library of pictures render ended with ${result}:\n${output}")
 endif()
+execute_process(COMMAND "${prefix}/bin/fanbeam" live flat-grass --http 0 --frames 1 RESULT_VARIABLE result
+                OUTPUT_VARIABLE output ERROR_VARIABLE output)
+if(NOT result EQUAL 4 OR NOT output MATCHES "libfanbeam-pictures.so.0")
+  message(FATAL_ERROR "without its library of pictures live ended with ${result}:\n${output}")
+endif()
 file(REMOVE_RECURSE "${SCRATCH}")
