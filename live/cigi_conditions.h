@@ -18,6 +18,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "feeds/cigi/host_packets.h"
@@ -39,6 +40,10 @@ class CigiConditions {
     session::SensorSettings sensor_in_force{};  // of the host's
     bool is_reset = false;                      // sensor_in_force is not set yet
   };
+  // Those that ask for conditions.
+  using Packet = std::variant<feeds::cigi::ViewDefinition, feeds::cigi::AtmosphereControl,
+                              feeds::cigi::WeatherControl, feeds::cigi::SurfaceConditions,
+                              feeds::cigi::SensorControl, feeds::cigi::ComponentControl>;
   // Gives why not, where it is refused.
   using TrySensor = std::function<std::optional<std::string>(const session::SensorSettings&)>;
 

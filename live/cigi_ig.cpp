@@ -56,7 +56,7 @@ CigiIg::CigiIg(session::Session& session, core::VerticalDatum datum, bool lockst
                const CigiStation& station)
     : session_(session),
       datum_(datum_of(session.scene()->description, datum)),
-      mailbox_(lockstep ? Mailbox::kKeptInLockstep : Mailbox::kKept),
+      mailbox_(lockstep),
       station_(station),
       entities_(datum_),
       letter_(lockstep ? 0 : std::numeric_limits<std::uint64_t>::max()),
@@ -181,10 +181,9 @@ void CigiIg::take(const cigi::HostPacket& packet, double time_s, const terrain::
              packet);
 }
 
-// Packets that said.packets holds: take().
 void CigiIg::heed(const Said& said, const scenes::Scene& scene) {
   if (said.reset) conditions_.reset();
-  for (const cigi::HostPacket& packet : said.packets)
+  for (const CigiConditions::Packet& packet : said.packets)
     std::visit(
         Overloaded{
             [&](const cigi::ViewDefinition& one) { conditions_.take(one); },
@@ -195,7 +194,6 @@ void CigiIg::heed(const Said& said, const scenes::Scene& scene) {
             [&](const cigi::ComponentControl& one) {
               count_unless(conditions_.take(one, said.host_frame), one.brief ? 5 : 4);
             },
-            [](const auto&) {},
         },
         packet);
   for (const std::string& why : conditions_.settle(scene)) refuse(why);

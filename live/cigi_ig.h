@@ -104,7 +104,7 @@ class CigiIg {
     std::uint64_t letters = 0;  // that came before the message's own
     std::uint32_t host_frame = 0;
     bool reset = false;  // first
-    std::vector<feeds::cigi::HostPacket> packets{};
+    std::vector<CigiConditions::Packet> packets{};
   };
   bool is_of_host(const std::string& host, Clock::time_point arrived);
   void take(Heard heard);

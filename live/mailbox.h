@@ -38,7 +38,7 @@ class Mailbox {
     std::uint64_t number = 0;       // from 1 up
   };
 
-  explicit Mailbox(std::size_t kept = kKept) : kept_(kept) {}
+  explicit Mailbox(bool in_lockstep = false) : kept_(in_lockstep ? kKeptInLockstep : kKept) {}
 
   void put(const core::Pose& pose, std::vector<std::uint8_t> packet = {},
            Clock::time_point arrived = Clock::now(), const std::optional<double>& clock_s = {},

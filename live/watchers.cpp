@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <exception>
 
 #include "core/picture_bytes.h"
 #include "live/watchers_private.h"
@@ -171,7 +172,11 @@ void Watcher::offer() {
   if (!frame || frame->number == sent_) return;
   sent_ = frame->number;
   sending_ = true;
-  send(*frame);
+  try {
+    send(*frame);
+  } catch (const std::exception&) {  // no picture ends the flight: the next frame is tried
+    sending_ = false;
+  }
 }
 
 void Watcher::open() {

@@ -1,6 +1,6 @@
 // Files of pictures as plain numbers: what core/image.cpp has OpenImageIO do.
 //
-// In a library of its own, libfanbeam-pictures.so, which is loaded with the first picture. OpenImageIO brings 160
+// In a library of its own, libfanbeam-pictures.so, which is loaded with the first picture. OpenImageIO brings 145
 // shared libraries along (OpenCV, VTK, GDCM, an FFmpeg under the GPL): loading them took three quarters of the time
 // in which a program started, and a host of libfanbeam.so that reads no pictures has none of them in its process.
 // Faults come back as texts, so that what a caller is told is said in one place.

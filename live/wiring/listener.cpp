@@ -14,8 +14,7 @@ Listener::Source::Source(const PosesFrom& told, const session::Session& session,
 
 Listener::Listener(const std::vector<PosesFrom>& from, session::Session& session, double rate_Hz,
                    bool lockstep, const CigiStation& station) {
-  const auto mailbox =
-      std::make_shared<Mailbox>(lockstep ? Mailbox::kKeptInLockstep : Mailbox::kKept);
+  const auto mailbox = std::make_shared<Mailbox>(lockstep);
   for (const PosesFrom& one : from) {
     sources_.emplace_back(one, session, mailbox, sources_.size());
     if (one.cigi) ig_.emplace(session, one.datum, lockstep, station);

@@ -35,7 +35,7 @@ void copy_part(const VisiblePieces& from, int i, double begin, double end, Visib
 }
 
 // Takes piece `from` into piece `to` if it goes on in its plane. What both span stays so small that range, pattern
-// and NRCS are those of one piece: farther ends at most 5 % farther, and a quarter of kMostSpan_rad.
+// and NRCS are those of one piece: farther ends at most 10 % farther, and half of kMostSpan_rad.
 bool join(VisiblePieces& pieces, int to, int from) {
   constexpr double kOnePlane = 2e-3, kOneTilt = 1e-4, kFarther = 1.1;
   const auto alike = [&](const auto& column) { return column[to] == column[from]; };

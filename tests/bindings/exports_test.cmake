@@ -1,5 +1,5 @@
 # What libfanbeam.so shows is what its header declares, fanbeam_* alone, and it does not need FFTW, which is GPL. Neither
-# it nor the program loads OpenImageIO and its 160 libraries before the first picture.
+# it nor the program loads OpenImageIO and its 145 libraries before the first picture.
 # Called with -D LIBRARY, PROGRAM, HEADER, NM, READELF.
 execute_process(COMMAND "${NM}" -D --defined-only "${LIBRARY}" OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "[^\n]+" lines "${lines}")

@@ -375,7 +375,7 @@ TEST_CASE(
   const tests::TemporaryFolder folder;
   const auto session = tests::live_session(folder);
   const std::vector<live::PosesFrom> from{live::poses_from("native-fdm:5501")};
-  live::Listener listener(from, *session, 16.0, live::Mailbox::kKept, {});
+  live::Listener listener(from, *session, 16.0, false, {});
   const auto mailbox = std::make_shared<live::Mailbox>();
   live::Feed feed(session->scene(), core::VerticalDatum::egm96, feeds::kProtocols[0], mailbox);
   const auto begin = live::Clock::now();

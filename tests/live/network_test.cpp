@@ -258,6 +258,27 @@ TEST_CASE("The end does not wait for answers that nobody will get", "[network][t
   CHECK(live::seconds_between(begin, live::Clock::now()) < one_s);
 }
 
+// What was thrown there went through the network's thread and ended the program.
+TEST_CASE("A frame whose picture cannot be made is left out of a stream, and the next one is shown",
+          "[network]") {
+  WebStation station;
+  station.network.start();
+  auto broken = std::make_shared<live::LiveFrame>();
+  broken->number = 1;
+  broken->bscope = {3, 2, {}};  // no pixels of those it claims
+  station.hub.publish(broken);
+  asio::io_context context;
+  tcp::socket camera(context);
+  camera.connect(station.endpoint());
+  asio::write(camera, asio::buffer("GET /stream HTTP/1.1\r\nHost: " + station.host() + "\r\n\r\n"));
+  wait_for([&] { return station.network.clients() == 1; });
+  std::string told;
+  asio::read_until(camera, asio::dynamic_buffer(told), "\r\n\r\n");
+  station.hub.publish(narrow_frame(2));
+  asio::read_until(camera, asio::dynamic_buffer(told), "\xff\xd8\xff");
+  CHECK(told.find("\xff\xd8\xff") != std::string::npos);
+}
+
 TEST_CASE(
     "Cameras' streams are JPEG pictures one after the other; /frames the WebSocket's messages",
     "[network][threads]") {
