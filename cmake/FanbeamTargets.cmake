@@ -12,6 +12,11 @@ target_compile_options(fanbeam_options INTERFACE
   # Fused multiply-add would make results depend on the instruction set.
   -ffp-contract=off
   -Wall -Wextra -Wshadow -Wdouble-promotion -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # g++ 12 warns of strings that it has joined itself (its bug 105651), and of unnamed namespaces in a file that another
+  # one includes, which is what a unity build does.
+  target_compile_options(fanbeam_options INTERFACE -Wno-restrict $<$<BOOL:${FANBEAM_UNITY}>:-Wno-subobject-linkage>)
+endif()
 if(FANBEAM_SANITIZER STREQUAL "address")
   # With the coverage that libFuzzer steers by and the checks of the standard library. The cast of a number beyond its
   # integer type is no part of "undefined".

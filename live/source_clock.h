@@ -23,6 +23,7 @@
 #include <cstddef>
 #include <deque>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -128,18 +129,19 @@ class LockstepTime {
 
   double next(const std::optional<double>& clock_s) {
     if (begun_) {
-      const double step_s = clock_s && last_s_ ? *clock_s - *last_s_ : -1.0;
+      const double step_s = clock_s ? *clock_s - last_s_ : -1.0;
       time_s_ += step_s >= 0.0 && step_s <= 1.0 ? step_s : period_s_;
     }
     begun_ = true;
-    last_s_ = clock_s;
+    last_s_ = clock_s.value_or(kNever_s);
     return time_s_;
   }
 
  private:
   double period_s_, time_s_ = 0.0;
   bool begun_ = false;
-  std::optional<double> last_s_;
+  static constexpr double kNever_s = -std::numeric_limits<double>::infinity();
+  double last_s_ = kNever_s;
 };
 
 }  // namespace fanbeam::live

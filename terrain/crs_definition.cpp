@@ -79,7 +79,7 @@ bool crs_names_files(std::string_view geojson, const std::string& file) {
     return true;
   };
   try {
-    static_cast<void>(Json::parse(geojson.begin(), geojson.end(), look));
+    [[maybe_unused]] const Json only_looked_at = Json::parse(geojson.begin(), geojson.end(), look);
   } catch (const Json::exception& error) {
     core::throw_input_error(core::ErrorClass::parse, core::Place{file}, "GeoJSON with a crs",
                             error.what(), "strict JSON");

@@ -23,9 +23,9 @@ void read_grey_mapping(core::ConfigTable& table, const RangeGate& range, Display
   if (complete && !(display.high_dB > display.low_dB))
     table.error(ErrorClass::range, "high_dB", number_text(display.high_dB),
                 "above low_dB = " + number_text(display.low_dB));
-  const auto unused = [&](const char* key, double level_dB) {
+  const auto unused = [&](const char* key, double given_dB) {
     if (display.mapping == Mapping::seed && table.has(key))
-      table.warning("UNUSED", key, number_text(level_dB),
+      table.warning("UNUSED", key, number_text(given_dB),
                     "ignored: mapping \"seed\" has a window of its own");
   };
   unused("low_dB", display.low_dB);

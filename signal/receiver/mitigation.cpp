@@ -28,7 +28,8 @@ Crossed crossed_samples(const FloatCube& cube, const std::vector<int>& channels,
   std::vector<double> powers(static_cast<std::size_t>(samples));
   for (const int channel : channels)
     for (int n = 0; n < samples; ++n)
-      powers[static_cast<std::size_t>(n)] += std::norm(cube.at(channel, chirp, n));
+      powers[static_cast<std::size_t>(n)] +=
+          static_cast<double>(std::norm(cube.at(channel, chirp, n)));
   std::vector<double> sorted = powers;
   const auto middle = sorted.begin() + samples / 2;
   std::nth_element(sorted.begin(), middle, sorted.end());
