@@ -231,20 +231,16 @@ std::vector<RadarMeasurement> SampledRadar::measure(const core::HighwayScenario&
   find_directions(beats.up);
   find_directions(beats.down);
   std::vector<Found> found;
-  for (std::size_t i = 0; i < detections.size(); ++i) {
-    Pair best;
-    for (const signal::RangeSpeed& place : places[i])
-      try_place(model, beats, place, detections[i], best);
-    if (!best.found) continue;
-    add(apart(model, beats, best, detections[i]), found);
-  }
+  const std::vector<Pair> bests = best_pairs(model, beats, places, detections);
+  for (std::size_t i = 0; i < detections.size(); ++i)
+    if (bests[i].found) add(apart(model, beats, bests, i, detections[i]), found);
   // Beats that no place has taken: another target in the cell of one that has.
   for (std::size_t i = 0; i < detections.size(); ++i)
     for (const signal::RangeSpeed& place : places[i]) {
-      Pair best;
-      try_place(model, left_over(beats, found), place, detections[i], best);
-      if (best.found && agree(beats.up[best.up], beats.down[best.down]))
-        add(apart(model, beats, best, detections[i]), found);
+      const std::vector<Pair> left =
+          fitting(model, left_over(beats, found), {place}, detections[i]);
+      if (!left.empty() && agree(beats.up[left[0].up], beats.down[left[0].down]))
+        add(apart(model, beats, {left[0]}, 0, detections[i]), found);
     }
   tell_shared(found);
   std::vector<RadarMeasurement> result;

@@ -75,6 +75,8 @@ class SampledRadar {
     std::size_t up = 0, down = 0;
     signal::RangeSpeed coarse, place;
     bool found = false;
+    // Of a beat, whether this pair has it.
+    bool has(bool of_up, std::size_t beat) const { return found && (of_up ? up : down) == beat; }
   };
   struct Found {
     std::size_t up = 0, down = 0;
@@ -92,12 +94,17 @@ class SampledRadar {
   bool agree(const Beat& one, const Beat& other) const;
   double misfit(const signal::TriangleModel& model, const SampledBeats& beats, std::size_t up,
                 std::size_t down, const signal::RangeSpeed& place, const Coarse& cell) const;
-  void try_place(const signal::TriangleModel& model, const SampledBeats& beats,
-                 const signal::RangeSpeed& place, const Coarse& cell, Pair& best) const;
+  std::vector<Pair> fitting(const signal::TriangleModel& model, const SampledBeats& beats,
+                            const std::vector<signal::RangeSpeed>& places,
+                            const Coarse& cell) const;
+  std::vector<Pair> best_pairs(const signal::TriangleModel& model, const SampledBeats& beats,
+                               const std::vector<std::vector<signal::RangeSpeed>>& places,
+                               const std::vector<Coarse>& cells) const;
   static bool seen_before(const std::vector<Found>& found, const Found& one, double apart);
   std::vector<signal::RangeSpeed> folded(const Coarse& one) const;
   std::vector<Found> apart(const signal::TriangleModel& model, const SampledBeats& beats,
-                           const Pair& best, const Coarse& coarse) const;
+                           const std::vector<Pair>& bests, std::size_t one,
+                           const Coarse& coarse) const;
   Found found_of(const SampledBeats& beats, std::size_t up, std::size_t down,
                  const signal::RangeSpeed& place, const Coarse& coarse) const;
   std::vector<Found> two_of_each(const signal::TriangleModel& model, const SampledBeats& beats,

@@ -1,6 +1,7 @@
 // Beats of a triangle to targets: which two belong together, and what they say.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/constants.h"
@@ -23,6 +24,7 @@ constexpr double kSettled_bins = 2e-4;
 constexpr double kMerged_bins = 0.7 * 0.28868;  // 1 / sqrt(12)
 constexpr double kSure = 9.0;                   // three standard deviations, squared
 constexpr double kNowhere_Hz = 1e15;
+constexpr double kTaken = 4.0;  // as much misfit as a beat is worth that another pair has
 
 }  // namespace
 
@@ -60,16 +62,61 @@ double SampledRadar::misfit(const signal::TriangleModel& model, const SampledBea
   return sum;
 }
 
-// The pair of beats that fits a coarse place best, if any does and better than `best`.
-void SampledRadar::try_place(const signal::TriangleModel& model, const SampledBeats& beats,
-                             const signal::RangeSpeed& place, const Coarse& cell,
-                             Pair& best) const {
-  for (std::size_t i = 0; i < beats.up.size(); ++i)
-    for (std::size_t j = 0; j < beats.down.size(); ++j) {
-      const double one = misfit(model, beats, i, j, place, cell);
-      if (one < best.misfit)
-        best = {one, i, j, place, solve(model, {beats.up[i].Hz, beats.down[j].Hz}), true};
+// The pairs of beats that fit one of a cell's places, the best first.
+std::vector<SampledRadar::Pair> SampledRadar::fitting(const signal::TriangleModel& model,
+                                                      const SampledBeats& beats,
+                                                      const std::vector<signal::RangeSpeed>& places,
+                                                      const Coarse& cell) const {
+  std::vector<Pair> result;
+  for (const signal::RangeSpeed& place : places)
+    for (std::size_t i = 0; i < beats.up.size(); ++i)
+      for (std::size_t j = 0; j < beats.down.size(); ++j) {
+        const double one = misfit(model, beats, i, j, place, cell);
+        if (one < Pair{}.misfit)
+          result.push_back(
+              {one, i, j, place, solve(model, {beats.up[i].Hz, beats.down[j].Hz}), true});
+      }
+  std::stable_sort(result.begin(), result.end(),
+                   [](const Pair& a, const Pair& b) { return a.misfit < b.misfit; });
+  return result;
+}
+
+// Of every cell the pair that fits best, the surest cell first. A beat that another cell's pair has is
+// less likely: two cars behind each other have four pairs of beats and one direction, and of the crossed
+// ones, which fit as well where the beats of a ramp are closer than cells, both beats are taken.
+std::vector<SampledRadar::Pair> SampledRadar::best_pairs(
+    const signal::TriangleModel& model, const SampledBeats& beats,
+    const std::vector<std::vector<signal::RangeSpeed>>& places,
+    const std::vector<Coarse>& cells) const {
+  std::vector<std::vector<Pair>> candidates;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    candidates.push_back(fitting(model, beats, places[i], cells[i]));
+  std::vector<Pair> result(cells.size());
+  const auto cost = [&](const Pair& pair) {
+    double taken = 0.0;
+    for (const bool of_up : {true, false})
+      taken += std::any_of(result.begin(), result.end(), [&](const Pair& other) {
+        return other.has(of_up, of_up ? pair.up : pair.down);
+      });
+    return pair.misfit + kTaken * taken;
+  };
+  for (std::size_t round = 0; round < cells.size(); ++round) {
+    double least = std::numeric_limits<double>::max();
+    std::size_t surest = cells.size();
+    Pair best;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (result[i].found) continue;
+      for (const Pair& pair : candidates[i])
+        if (const double one = cost(pair); one < least) {
+          least = one;
+          surest = i;
+          best = pair;
+        }
     }
+    if (surest == cells.size()) break;
+    result[surest] = best;
+  }
+  return result;
 }
 
 namespace {
@@ -180,8 +227,11 @@ std::vector<SampledRadar::Found> SampledRadar::two_of_each(const signal::Triangl
 // The pair as it is, or where a beat of it is one of two tones of a peak, both targets: each with the
 // beat of the other ramp, near enough in range and speed, that comes from its direction.
 std::vector<SampledRadar::Found> SampledRadar::apart(const signal::TriangleModel& model,
-                                                     const SampledBeats& beats, const Pair& best,
+                                                     const SampledBeats& beats,
+                                                     const std::vector<Pair>& bests,
+                                                     std::size_t place_of,
                                                      const Coarse& coarse) const {
+  const Pair& best = bests[place_of];
   const std::vector<std::size_t> up = of_peak(beats.up, best.up);
   const std::vector<std::size_t> down = of_peak(beats.down, best.down);
   const Found as_it_is = found_of(beats, best.up, best.down, best.place, coarse);
@@ -193,16 +243,23 @@ std::vector<SampledRadar::Found> SampledRadar::apart(const signal::TriangleModel
   const std::vector<Beat>& others = by_up ? beats.down : beats.up;
   std::vector<Found> result;
   for (const std::size_t one : by_up ? up : down) {
+    const bool is_best = best.has(by_up, one);
+    // Its target is measured where it is detected.
+    if (!is_best && std::any_of(bests.begin(), bests.end(), [&](const Pair& other) {
+          return &other != &best && other.has(by_up, one);
+        }))
+      continue;
     const Beat& own = (by_up ? beats.up : beats.down)[one];
     std::size_t other = by_up ? best.down : best.up;
-    double least = kMostDisagreement;
+    double least = Pair{}.misfit;
     bool alone = false;  // no other target is in either beat
     for (std::size_t k = 0; k < others.size(); ++k) {
       const std::size_t i = by_up ? one : k, j = by_up ? k : one;
-      if (!own.lone_wave || !others[k].lone_wave || disagreement(own, others[k]) >= least ||
-          !(misfit(model, beats, i, j, best.coarse, coarse) < Pair{}.misfit))
-        continue;
-      least = disagreement(own, others[k]);
+      if (is_best && k != other) continue;  // with its own partner
+      if (!own.lone_wave || !others[k].lone_wave || !agree(own, others[k])) continue;
+      const double fit = misfit(model, beats, i, j, best.coarse, coarse);
+      if (!(fit < least)) continue;
+      least = fit;
       other = k;
       alone = true;
     }
