@@ -119,7 +119,6 @@ void add_pairs_of_speed(const signal::TriangleModel& fine, const RampPeaks& peak
     double misfit;
     signal::RangeSpeed place;
     PairOfPeaks pair;
-    const Seen* coarse;
   };
   const double cell_mps =
       0.5 * core::kSpeedOfLight_mps / radar.centre_frequency_Hz / radar.waveforms.flat_s;
@@ -132,21 +131,13 @@ void add_pairs_of_speed(const signal::TriangleModel& fine, const RampPeaks& peak
       if (std::abs(place.radial_speed_mps - one.rate_mps) > settings.merge_bins * cell_mps)
         continue;
       const double misfit = direction_misfit(peaks, pair, one.bound.azimuth_sigma_rad);
-      if (misfit <= kMostMisfit) candidates.push_back({misfit, place, pair, &one});
+      if (misfit <= kMostMisfit) candidates.push_back({misfit, place, pair});
     }
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.misfit < b.misfit; });
-  for (const auto& [misfit, place, pair, one] : candidates) {
-    if (!found.can_be(pair)) continue;
-    const double up_rad = peaks.up.azimuth_rad[pair.up];
-    const double down_rad = peaks.down.azimuth_rad[pair.down];
-    RadarMeasurement measured = with_sigmas(place, 0.5 * (up_rad + down_rad), one->bound);
-    state_spread(fine, peaks, pair, measured);
-    measured.azimuth_systematic_rad =
-        0.5 * std::hypot(peaks.up.spread_rad[pair.up], peaks.down.spread_rad[pair.down]);
-    found.add(measured, pair);
-  }
+  for (const auto& [misfit, place, pair] : candidates)
+    if (found.can_be(pair)) found.add(measured_pair(fine, peaks, place, radar), pair);
 }
 
 }  // namespace

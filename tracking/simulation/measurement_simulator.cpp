@@ -120,25 +120,6 @@ std::size_t nearest(const std::vector<double>& values, double to) {
   return best;
 }
 
-// Direction and strength of a pair are those of the beats that it explains.
-RadarMeasurement measured_pair(const signal::TriangleModel& model, const RampPeaks& peaks,
-                               const signal::RangeSpeed& place, const core::HighwayRadar& radar) {
-  const PairOfPeaks pair = peaks_at(model, peaks, place);
-  const auto [up, down] = pair;
-  const double azimuth_rad = 0.5 * (peaks.up.azimuth_rad[up] + peaks.down.azimuth_rad[down]);
-  // The bound of a cross-section that would give this power.
-  const double ratio = std::min(peaks.up.power[up], peaks.down.power[down]);
-  const double unit =
-      measurement_bound(radar, 1.0, std::max(place.range_m, 1e-3), azimuth_rad).signal_to_noise;
-  RadarMeasurement measured = with_sigmas(
-      place, azimuth_rad,
-      measurement_bound(radar, ratio / unit, std::max(place.range_m, 1e-3), azimuth_rad));
-  state_spread(model, peaks, pair, measured);
-  measured.azimuth_systematic_rad =
-      0.5 * std::hypot(peaks.up.spread_rad[up], peaks.down.spread_rad[down]);
-  return measured;
-}
-
 void add_false(const core::HighwayRadar& radar, const SimulationSettings& settings,
                const Draws& draws, std::vector<RadarMeasurement>& measurements) {
   // Poisson by products of uniform numbers.
@@ -225,6 +206,24 @@ void state_spread(const signal::TriangleModel& model, const RampPeaks& peaks,
   };
   add(peaks.up.spread_Hz[pair.up], 0.0);
   add(0.0, peaks.down.spread_Hz[pair.down]);
+}
+
+RadarMeasurement measured_pair(const signal::TriangleModel& model, const RampPeaks& peaks,
+                               const signal::RangeSpeed& place, const core::HighwayRadar& radar) {
+  const PairOfPeaks pair = peaks_at(model, peaks, place);
+  const auto [up, down] = pair;
+  const double azimuth_rad = 0.5 * (peaks.up.azimuth_rad[up] + peaks.down.azimuth_rad[down]);
+  // The bound of a cross-section that would give this power.
+  const double ratio = std::min(peaks.up.power[up], peaks.down.power[down]);
+  const double unit =
+      measurement_bound(radar, 1.0, std::max(place.range_m, 1e-3), azimuth_rad).signal_to_noise;
+  RadarMeasurement measured = with_sigmas(
+      place, azimuth_rad,
+      measurement_bound(radar, ratio / unit, std::max(place.range_m, 1e-3), azimuth_rad));
+  state_spread(model, peaks, pair, measured);
+  measured.azimuth_systematic_rad =
+      0.5 * std::hypot(peaks.up.spread_rad[up], peaks.down.spread_rad[down]);
+  return measured;
 }
 
 RadarMeasurement with_sigmas(const signal::RangeSpeed& place, double azimuth_rad,

@@ -59,6 +59,10 @@ void state_spread(const signal::TriangleModel& model, const RampPeaks& peaks,
 RadarMeasurement with_sigmas(const signal::RangeSpeed& place, double azimuth_rad,
                              const MeasurementBound& bound);
 
+// A pair at the place that it gives; direction and strength are those of the beats that it explains.
+RadarMeasurement measured_pair(const signal::TriangleModel& model, const RampPeaks& peaks,
+                               const signal::RangeSpeed& place, const core::HighwayRadar& radar);
+
 // Of the array, in the sine of the azimuth: half-power width.
 double beam_rad(const core::HighwayRadar& radar);
 
