@@ -19,12 +19,13 @@ void forget_peak_memory() { std::ofstream("/proc/self/clear_refs") << 5; }
 
 }  // namespace
 
-bool BenchScene::noise() const { return scene->plan.runs(core::EffectId::thermal_noise); }
-
 renderer::Effects BenchScene::effects() const {
-  renderer::Effects effects = renderer::effects_of(scene->plan, 1);
-  effects.speckle = effects.swerling = false;
-  return effects;
+  return renderer::without_draws(renderer::effects_of(scene->plan, 1));
+}
+
+renderer::Effects BenchScene::noise_alone() const {
+  constexpr auto kNoise = core::EffectId::thermal_noise;
+  return {core::EffectSet{}.with(kNoise, scene->plan.runs(kNoise))};
 }
 
 std::string data_folder() {
@@ -67,7 +68,7 @@ std::optional<BenchScene> load(const std::string& name, const scenes::BuildOptio
     return std::nullopt;
   }
   renderer::render_frame(result.scene->world, renderer::sampling_for(renderer::kDefaultRaysPerCell),
-                         {}, {.thermal_noise = result.noise()}, view_at(result, 2500.0).pose);
+                         {}, result.noise_alone(), view_at(result, 2500.0).pose);
   result.peak_memory_bytes = process_memory_bytes("VmHWM") - before_bytes;
   return result;
 }

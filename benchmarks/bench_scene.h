@@ -27,9 +27,10 @@ struct BenchScene {
   // held before.
   double peak_memory_bytes = 0.0;
 
-  bool noise() const;
   // All that the plan asks for, as expected power: the whole picture.
   renderer::Effects effects() const;
+  // Of surfaces and point targets alone: the mean noise, if the plan asks for it.
+  renderer::Effects noise_alone() const;
 };
 
 // FANBEAM_DATA, else ../shared/data beside the source tree.

@@ -44,8 +44,7 @@ FramePower mean_of(FramePower one, const FramePower& other) {
 void check_frame(const BenchScene& bench, int frame, const Effort& effort,
                  std::vector<EstimateCase>& cases) {
   const scenes::Scene& scene = *bench.scene;
-  renderer::Effects effects = renderer::effects_of(scene.plan, 1);
-  effects.speckle = effects.swerling = false;
+  const renderer::Effects effects = bench.effects();
   const auto render = [&](const renderer::Sampling& sampling) {
     return renderer::render_frame(scene.world, sampling, {true, true}, effects,
                                   scene.frame_pose(frame));
@@ -55,7 +54,7 @@ void check_frame(const BenchScene& bench, int frame, const Effort& effort,
   half.jittered_passes = other_half.jittered_passes = std::max(half.jittered_passes / 2, 1);
   const FramePower first = power_of(render(half)), second = power_of(render(other_half));
   const auto shown_rms = [&](const PictureError& error) {
-    return (effects.thermal_noise ? error.with_noise : error.noise_free).rms;
+    return (effects.runs(core::EffectId::thermal_noise) ? error.with_noise : error.noise_free).rms;
   };
   const renderer::FrameError own = GreyReference(scene.world.sensor, first).error_of(second);
   const GreyReference reference(scene.world.sensor, mean_of(first, second));

@@ -166,7 +166,7 @@ void ViewBench::measure_caster(CasterKind caster) {
 
 void ViewBench::measure_surfaces() {
   tell("surfaces alone");
-  const renderer::Effects effects{.thermal_noise = view_.scene->noise()};
+  const renderer::Effects effects = view_.scene->noise_alone();
   const GreyReference reference(
       view_.sensor(), FrameClock(view_.world(), view_.pose, effort_.reference(1), effects).power());
   const Picture picture{effects, reference};

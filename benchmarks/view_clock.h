@@ -24,7 +24,7 @@ inline FrameClock clock_of(const View& view, const renderer::Sampling& sampling)
 // Of surfaces and point targets alone.
 inline FrameClock surfaces_clock(const renderer::World& world, const View& view,
                                  const renderer::Sampling& sampling) {
-  return {world, view.pose, sampling, {.thermal_noise = view.scene->noise()}};
+  return {world, view.pose, sampling, view.scene->noise_alone()};
 }
 
 }  // namespace fanbeam::benchmarks

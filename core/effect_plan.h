@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
+#include <initializer_list>
 #include <ostream>
 #include <string>
 #include <string_view>
@@ -50,15 +52,26 @@ inline std::ostream& operator<<(std::ostream& stream, EffectId effect) {
 
 class EffectSet {
  public:
+  constexpr EffectSet() = default;
+  constexpr EffectSet(std::initializer_list<EffectId> effects) {
+    for (const EffectId effect : effects) insert(effect);
+  }
   constexpr bool contains(EffectId effect) const { return (bits_ & bit(effect)) != 0; }
   constexpr void insert(EffectId effect) { bits_ |= bit(effect); }
+  constexpr void erase(EffectId effect) { bits_ &= ~bit(effect); }
+  // These, and `effect` too or not, as told.
+  constexpr EffectSet with(EffectId effect, bool contained) const {
+    EffectSet result = *this;
+    contained ? result.insert(effect) : result.erase(effect);
+    return result;
+  }
   std::vector<std::string_view> names() const {
     std::vector<std::string_view> result;
     for (std::size_t i = 0; i < kEffectNames.size(); ++i)
       if (contains(static_cast<EffectId>(i))) result.push_back(kEffectNames[i]);
     return result;
   }
-  bool operator==(const EffectSet&) const = default;
+  auto operator<=>(const EffectSet&) const = default;
 
  private:
   static constexpr std::uint32_t bit(EffectId effect) {

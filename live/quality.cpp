@@ -60,8 +60,8 @@ bool Quality::look() {
     const std::shared_ptr<const scenes::Scene> scene = session_.scene(frame->under);
     renderer::Sampling sampling = session_.sampling(frame->under);
     sampling.estimate_error = true;
-    renderer::Effects effects = renderer::effects_of(scene->plan, session_.seed());
-    effects.speckle = effects.swerling = false;
+    const renderer::Effects effects =
+        renderer::without_draws(renderer::effects_of(scene->plan, session_.seed()));
     const renderer::Frame made = renderer::render_frame(scene->world, sampling, {true, true},
                                                         effects, scene->pose_at(frame->pose));
     if (!made.error) return false;

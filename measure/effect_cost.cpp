@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "core/effect_plan.h"
 #include "core/turns.h"
@@ -12,17 +11,10 @@
 namespace fanbeam::measure {
 namespace {
 
-using renderer::Effects;
 using renderer::FrameRenderer;
 
 constexpr std::uint64_t kSeed = 0;
 const renderer::Products kPictures{true, true};
-
-// A switch of the renderer; nullptr for what the world must be built for.
-bool* switch_in(const renderer::World& world, core::EffectId effect, Effects& effects) {
-  if (effect == core::EffectId::rain_echo && !world.volume_echo) return nullptr;
-  return renderer::switch_of(effect, effects);
-}
 
 double render_ms(const FrameRenderer& renderer, const renderer::FramePose& pose) {
   const Clock::time_point begin = Clock::now();
@@ -59,20 +51,13 @@ EffectCost difference(const FrameRenderer& with, const FrameRenderer& without,
 
 EffectCost cost_of(const core::EffectDecision& decision, const scenes::Scene& scene,
                    const CostRun& run) {
-  const Effects planned = renderer::effects_of(scene.plan, kSeed);
-  const FrameRenderer as_planned(scene.world, run.sampling, kPictures, planned);
-  Effects turned = planned;
-  std::unique_ptr<scenes::Scene> rebuilt;
-  if (bool* flag = switch_in(scene.world, decision.effect, turned)) {
-    *flag = !decision.on;
-  } else {
-    core::ProblemList known;
-    rebuilt =
-        scenes::under_conditions(scene, {.wishes = all_but(scene.plan, decision.effect)}, known);
-    turned = renderer::effects_of(rebuilt->plan, kSeed);
-  }
-  const FrameRenderer other(rebuilt ? rebuilt->world : scene.world, run.sampling, kPictures,
-                            turned);
+  core::ProblemList known;
+  const auto turned =
+      scenes::under_conditions(scene, {.wishes = all_but(scene.plan, decision.effect)}, known);
+  const FrameRenderer as_planned(scene.world, run.sampling, kPictures,
+                                 renderer::effects_of(scene.plan, kSeed));
+  const FrameRenderer other(turned->world, run.sampling, kPictures,
+                            renderer::effects_of(turned->plan, kSeed));
   return decision.on ? difference(as_planned, other, scene, run)
                      : difference(other, as_planned, scene, run);
 }

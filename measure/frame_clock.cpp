@@ -16,11 +16,6 @@ double cells_of(const sensors::Sensor& sensor) {
 
 }  // namespace
 
-renderer::Effects without_draws(renderer::Effects effects) {
-  effects.speckle = effects.swerling = false;
-  return effects;
-}
-
 renderer::FramePower power_of(renderer::Frame&& frame) {
   return {std::move(frame.bscope_W), std::move(frame.cscope_W_m3)};
 }

@@ -13,9 +13,6 @@ class FrameRenderer;
 
 namespace fanbeam::measure {
 
-// The expected picture: a realisation cannot be held against a converged one.
-renderer::Effects without_draws(renderer::Effects effects);
-
 renderer::FramePower power_of(renderer::Frame&& frame);
 
 class FrameClock {

@@ -77,10 +77,11 @@ std::optional<double> interpolated(const std::vector<Point>& points, double x) {
 }  // namespace
 
 renderer::Effects CostBench::effects() const {
-  renderer::Effects effects = without_draws(renderer::effects_of(scene.plan, 0));
+  renderer::Effects effects = renderer::without_draws(renderer::effects_of(scene.plan, 0));
   // The error adds the noise itself; a C-scope of another mode is worked out from the B-scope.
   const auto mode = scene.world.sensor.display.cscope_mode;
-  if (mode != sensors::Display::CScopeMode::true_elevation) effects.thermal_noise = false;
+  if (mode != sensors::Display::CScopeMode::true_elevation)
+    effects.on.erase(core::EffectId::thermal_noise);
   return effects;
 }
 

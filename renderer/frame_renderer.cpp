@@ -48,10 +48,12 @@ class FrameRenderer::Stages {
         products_(products),
         effects_(effects),
         caster_(std::move(caster)),
-        double_bounce_(effects.double_bounce
-                           ? std::make_unique<DoubleBounce>(world, sampling, effects.thermal_noise)
+        double_bounce_(effects.runs(core::EffectId::double_bounce)
+                           ? std::make_unique<DoubleBounce>(
+                                 world, sampling, effects.runs(core::EffectId::thermal_noise))
                            : nullptr),
-        range_response_(effects.range_response && sensors::has_point_response(world.sensor)
+        range_response_(effects.runs(core::EffectId::range_response) &&
+                                sensors::has_point_response(world.sensor)
                             ? std::make_unique<RangeResponse>(world.sensor)
                             : nullptr),
         ground_truth_(products.layers || products.cscope_layers
@@ -76,7 +78,7 @@ class FrameRenderer::Stages {
   };
   Images images_of(const FanSums& sums, bool with_cscope) const;
   Images images_of(const BounceFan& bounces, bool with_cscope) const;
-  bool rains() const { return effects_.rain_echo && world_.volume_echo; }
+  bool rains() const { return effects_.runs(core::EffectId::rain_echo) && world_.volume_echo; }
   // Last: sums are added in one order, with an estimate and without.
   void add_rain(const sensors::AntennaFrame& antenna, FanSums& sums) const;
   // `bounced`, unless null, receives what double bounces add.
@@ -156,9 +158,9 @@ Frame FrameRenderer::Stages::render(const FramePose& pose) const {
   frame.bscope_W = std::move(images.bscope_W);
   frame.cscope_W_m3 = std::move(images.cscope_W_m3);
   // Phases mean something in a realisation only: ground_multipath.h.
-  const Multipath multipath = !effects_.multipath ? Multipath::none
-                              : effects_.speckle  ? Multipath::coherent
-                                                  : Multipath::mean;
+  const Multipath multipath = !effects_.runs(core::EffectId::multipath) ? Multipath::none
+                              : effects_.runs(core::EffectId::speckle)  ? Multipath::coherent
+                                                                        : Multipath::mean;
   const std::vector<core::Echo> echoes =
       seen_echoes(world_, antenna, targets.echoes, sight, multipath);
   if (wants_layers()) add_layers(antenna, echoes, bounced, frame);
@@ -235,16 +237,17 @@ void FrameRenderer::Stages::add_layers(const sensors::AntennaFrame& antenna,
 void FrameRenderer::Stages::receive(const std::vector<core::Echo>& echoes,
                                     std::uint64_t frame_index, Frame& frame) const {
   const sensors::Sensor& sensor = world_.sensor;
-  if (!effects_.speckle && !effects_.swerling) {
+  if (!effects_.runs(core::EffectId::speckle) && !effects_.runs(core::EffectId::swerling)) {
     add_echoes(echoes, sensor, frame.bscope_W, frame.cscope_W_m3);
     if (range_response_) range_response_->apply(frame.bscope_W);
     return;
   }
-  const Fluctuation fluctuation{effects_.speckle, effects_.swerling, sensor.receiver.looks,
+  const Fluctuation fluctuation{effects_.runs(core::EffectId::speckle),
+                                effects_.runs(core::EffectId::swerling), sensor.receiver.looks,
                                 effects_.seed, frame_index};
   std::vector<core::Swerling> cases;
   for (const PointTarget& target : world_.targets) cases.push_back(target.swerling);
-  const bool noisy = effects_.thermal_noise;
+  const bool noisy = effects_.runs(core::EffectId::thermal_noise);
   std::vector<TargetShare> targets = bscope_shares(echoes, sensor);
   if (range_response_) {
     range_response_->apply(frame.bscope_W);
@@ -260,7 +263,8 @@ void FrameRenderer::Stages::receive(const std::vector<core::Echo>& echoes,
 
 void FrameRenderer::Stages::display(double height_above_ground_m, Frame& frame) const {
   const sensors::Sensor& sensor = world_.sensor;
-  const bool mean_noise = effects_.thermal_noise && !effects_.speckle;
+  const bool mean_noise =
+      effects_.runs(core::EffectId::thermal_noise) && !effects_.runs(core::EffectId::speckle);
   frame.noise_W = mean_noise ? sensor.noise_power_W() : 0.0;
   const std::vector<double> received_W = frame.received_W();
   if (products_.bscope) frame.bscope_grey = sensors::bscope_grey(sensor, received_W);

@@ -2,7 +2,8 @@
 // products: a renderer for each combination, made when a frame first asks for it.
 //
 // A combination costs the tables of one FrameRenderer: milliseconds and a few megabytes. Plans of
-// one sequence make at most eight, and products sixty-four.
+// one sequence make at most eight, as they differ in three stages alone and agree on all that is
+// built into the world (renderer::frame_plan), and products sixty-four.
 #pragma once
 
 #include <cstdint>

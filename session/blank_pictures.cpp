@@ -169,8 +169,7 @@ std::pair<std::string, std::string> cause(const sensors::Sensor& sensor, const P
 void add_blank_pictures(const scenes::Scene& scene, scenes::Findings& findings) {
   if (scene.frame_count() == 0) return;
   const sensors::Sensor& sensor = scene.world.sensor;
-  renderer::Effects effects = renderer::effects_of(scene.plan, 0);
-  effects.speckle = effects.swerling = false;
+  const renderer::Effects effects = renderer::without_draws(renderer::effects_of(scene.plan, 0));
   const auto kind = scene.caster.chosen;
   const renderer::FrameRenderer frames(scene.world, renderer::default_sampling(kind),
                                        {.bscope = true, .cscope = true}, effects);
@@ -181,7 +180,8 @@ void add_blank_pictures(const scenes::Scene& scene, scenes::Findings& findings) 
     return std::find(frame.events.begin(), frame.events.end(), event) != frame.events.end();
   };
   if (happened("below_terrain")) return;
-  for (const Picture& picture : pictures(scene, pose, frame, effects.thermal_noise)) {
+  const bool noisy = effects.runs(core::EffectId::thermal_noise);
+  for (const Picture& picture : pictures(scene, pose, frame, noisy)) {
     const Look look = look_at(sensor, picture);
     if (!look.like_noise && !look.one_grey) continue;
     const auto [why, remedy] = cause(sensor, picture, happened("empty_view"));

@@ -44,7 +44,7 @@ CostFigures head_of(const CostBench& bench, int threads) {
 Pace measure_pace(const scenes::Scene& scene, int frame, bool slices) {
   constexpr double kNaiveRays = 2.0;
   const renderer::FramePose pose = scene.frame_pose(frame);
-  const renderer::Effects effects = without_draws(renderer::effects_of(scene.plan, 0));
+  const renderer::Effects effects = renderer::without_draws(renderer::effects_of(scene.plan, 0));
   Pace pace;
   pace.build_s = scene.build_s;
   pace.frame_ms = time_once_ms(

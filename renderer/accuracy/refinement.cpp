@@ -157,9 +157,9 @@ ErrorEstimate Refinement::cast(const sensors::AntennaFrame& antenna, bool with_c
                                FanSums& sums, SightLines& sight, BounceFan* bounced) const {
   caster_.cast(antenna, with_cscope, CastPass{}, sums, sight);
   ColumnError difference(
-      world_.sensor, effects_.thermal_noise,
+      world_.sensor, effects_.runs(core::EffectId::thermal_noise),
       draws_cscope_ ? world_.surfaces().height_above_ground_m(antenna.position_m) : 0.0);
-  if (effects_.rain_echo && world_.volume_echo) {
+  if (effects_.runs(core::EffectId::rain_echo) && world_.volume_echo) {
     FanSums rain = empty_like(sums);
     add_rain_echo(world_, antenna, sampling_.sub_columns, rain);
     difference.put_under(rain);

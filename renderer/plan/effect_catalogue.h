@@ -8,8 +8,7 @@
 // a small change can decide over a large one plan.cpp takes the whole window instead.
 // What touches pictures is planned once for a sequence, from the scene. What touches samples alone
 // is planned for each set of them, from their power (signal_effects.h).
-// New effects are new rows, of a new core::EffectId: nothing else lists them but their names beside
-// it and switch_of (effects.h), of those that are a stage.
+// New effects are new rows, of a new core::EffectId: only the list of their names has them too.
 #pragma once
 
 #include <string>

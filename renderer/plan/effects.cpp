@@ -2,22 +2,16 @@
 
 namespace fanbeam::renderer {
 
-bool* switch_of(core::EffectId effect, Effects& effects) {
-  if (effect == core::EffectId::thermal_noise) return &effects.thermal_noise;
-  if (effect == core::EffectId::speckle) return &effects.speckle;
-  if (effect == core::EffectId::swerling) return &effects.swerling;
-  if (effect == core::EffectId::rain_echo) return &effects.rain_echo;
-  if (effect == core::EffectId::double_bounce) return &effects.double_bounce;
-  if (effect == core::EffectId::multipath) return &effects.multipath;
-  if (effect == core::EffectId::range_response) return &effects.range_response;
-  return nullptr;
+Effects effects_of(const core::EffectPlan& plan, std::uint64_t seed) {
+  Effects effects{{}, seed};
+  for (const core::EffectDecision& decision : plan.decisions)
+    if (decision.on) effects.on.insert(decision.effect);
+  return effects;
 }
 
-Effects effects_of(const core::EffectPlan& plan, std::uint64_t seed) {
-  Effects effects;
-  for (const core::EffectDecision& decision : plan.decisions)
-    if (bool* const runs = switch_of(decision.effect, effects)) *runs = decision.on;
-  effects.seed = seed;
+Effects without_draws(Effects effects) {
+  effects.on.erase(core::EffectId::speckle);
+  effects.on.erase(core::EffectId::swerling);
   return effects;
 }
 

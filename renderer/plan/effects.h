@@ -1,5 +1,6 @@
-// Which optional stages a frame goes through, as the plan decided: what is off has no stage, no
-// buffer and no random number.
+// What a frame is made with, as the plan decided. Stages ask for their effect: what is off has no
+// stage, no buffer and no random number. What is built into the world stands here too, and no stage
+// asks for it.
 #pragma once
 
 #include <compare>
@@ -10,22 +11,18 @@
 namespace fanbeam::renderer {
 
 struct Effects {
-  bool thermal_noise = false;
-  bool speckle = false;   // one realisation instead of expected power, noise included
-  bool swerling = false;  // targets fluctuate
-  bool rain_echo = false;
-  bool double_bounce = false;
-  bool multipath = false;  // of point targets over reflecting ground
-  bool range_response = false;
+  core::EffectSet on;
   std::uint64_t seed = 0;  // of everything random in a frame
 
+  bool runs(core::EffectId effect) const { return on.contains(effect); }
   // So that whoever keeps renderers by their effects cannot forget one.
   auto operator<=>(const Effects&) const = default;
 };
 
-// The stage of an effect; nullptr for one that is built into the world or into samples.
-bool* switch_of(core::EffectId effect, Effects& effects);
-
+// All that the plan runs.
 Effects effects_of(const core::EffectPlan& plan, std::uint64_t seed);
+
+// The expected picture: a realisation cannot be held against a converged one.
+Effects without_draws(Effects effects);
 
 }  // namespace fanbeam::renderer

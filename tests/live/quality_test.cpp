@@ -51,8 +51,7 @@ TEST_CASE("The error that is told is the renderer's own estimate for the frame t
   renderer::Sampling sampling = session->sampling();
   sampling.estimate_error = true;
   const auto scene = session->scene();
-  renderer::Effects effects = renderer::effects_of(scene->plan, 0);
-  effects.speckle = effects.swerling = false;
+  const renderer::Effects effects = renderer::without_draws(renderer::effects_of(scene->plan, 0));
   const renderer::Frame made = renderer::render_frame(scene->world, sampling, {true, true}, effects,
                                                       scene->pose_at(live::circle(*scene)(1.0)));
   REQUIRE(made.error.has_value());

@@ -29,7 +29,7 @@ renderer::World level_tile(const sensors::Sensor& sensor, double height_m) {
 
 renderer::Frame frame_of(const renderer::World& world, const renderer::Sampling& sampling,
                          double height_m) {
-  return renderer::render_frame(world, sampling, {}, {.thermal_noise = true},
+  return renderer::render_frame(world, sampling, {}, {{core::EffectId::thermal_noise}},
                                 tests::level_pose(height_m));
 }
 

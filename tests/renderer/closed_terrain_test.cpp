@@ -16,7 +16,7 @@ namespace {
 
 renderer::Frame frame_over(const renderer::World& world, const renderer::Sampling& sampling,
                            double height_m) {
-  return renderer::render_frame(world, sampling, {}, {.thermal_noise = true},
+  return renderer::render_frame(world, sampling, {}, {{core::EffectId::thermal_noise}},
                                 tests::level_pose(height_m));
 }
 

@@ -43,8 +43,8 @@ TEST_CASE("R10 frames rendered at once, inside tasks or threads, are those rende
   for (const renderer::Sampling& sampling :
        {renderer::sampling_for(2.0), renderer::profile_sampling_for(2.0), estimated,
         renderer::refined_sampling(renderer::CasterKind::rays, 1.0)}) {
-    const renderer::FrameRenderer frames(world, sampling, {},
-                                         {.thermal_noise = true, .double_bounce = true});
+    const renderer::FrameRenderer frames(
+        world, sampling, {}, {{core::EffectId::thermal_noise, core::EffectId::double_bounce}});
     std::vector<renderer::Frame> expected;
     for (std::size_t i = 0; i < 8; ++i) expected.push_back(frames.render(pose(i)));
     INFO("caster " << static_cast<int>(sampling.caster) << ", to " << sampling.target_grey);

@@ -40,7 +40,7 @@ TEST_CASE("M02 the dark half of a scene is the noise-only picture, or the floor,
   for (const renderer::Sampling& sampling :
        {renderer::sampling_for(4.0), renderer::profile_sampling_for(8.0)})
     for (const bool noise : {true, false}) {
-      const renderer::Effects effects{.thermal_noise = noise};
+      const renderer::Effects effects{core::EffectSet{}.with(core::EffectId::thermal_noise, noise)};
       const renderer::Frame seen =
           renderer::render_frame(half, sampling, {}, effects, tests::level_pose(80.0));
       const renderer::Frame floor =

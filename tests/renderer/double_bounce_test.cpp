@@ -53,8 +53,8 @@ renderer::World corner_world(std::vector<tests::Body> screens = {}) {
 
 renderer::Frame render(const renderer::World& world, const renderer::Sampling& sampling,
                        bool double_bounce, double height_m = kHeight_m) {
-  renderer::Effects effects;
-  effects.double_bounce = double_bounce;
+  const renderer::Effects effects{
+      core::EffectSet{}.with(core::EffectId::double_bounce, double_bounce)};
   return renderer::render_frame(world, sampling, {}, effects, tests::level_pose(height_m));
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using Mode = sensors::Display::CScopeMode;
 
-const renderer::Effects kNoisy{.thermal_noise = true};
+const renderer::Effects kNoisy{{core::EffectId::thermal_noise}};
 
 renderer::World city_in(Mode mode) {
   sensors::Sensor sensor = tests::narrow(24);

@@ -10,6 +10,7 @@
 #include "core/effect_plan.h"
 #include "core/errors.h"
 #include "renderer/plan/effect_texts.h"
+#include "renderer/plan/effects.h"
 #include "renderer/plan/plan.h"
 #include "tests/comma_locale.h"
 #include "tests/renderer/test_worlds.h"
@@ -43,14 +44,53 @@ TEST_CASE("A wish names every effect by its word, and no other", "[effects]") {
     for (const core::EffectId effect : renderer::effects_shown_in(touched)) {
       const renderer::EffectWishes wishes =
           renderer::parse_effect_wishes("+" + std::string(name_of(effect)), touched);
-      core::EffectSet alone;
-      alone.insert(effect);
-      CHECK(wishes.forced_on == alone);
+      CHECK(wishes.forced_on == core::EffectSet{effect});
       CHECK(wishes.forced_on.names() == std::vector{name_of(effect)});
       CHECK(wishes.forced_off == core::EffectSet{});
     }
   for (const char* refused : {"+", "-", "gas", "+gass", "", "+ga", "*gas"})
     CHECK_THROWS_AS(renderer::parse_effect_wishes(refused), core::InputError);
+}
+
+// One that a table of switches missed was planned on and ran nowhere.
+TEST_CASE("What a plan runs is what its frames are made with, every effect of the catalogue",
+          "[effects]") {
+  core::EffectPlan all;
+  core::EffectSet catalogue;
+  for (const renderer::Effect& effect : renderer::effect_catalogue()) {
+    INFO(effect.name());
+    core::EffectPlan alone = all;
+    for (core::EffectDecision& decision : alone.decisions) decision.on = false;
+    alone.decisions.push_back({effect.id, true, ""});
+    CHECK(renderer::effects_of(alone, 7) == renderer::Effects{{effect.id}, 7});
+    all.decisions.push_back(alone.decisions.back());
+    catalogue.insert(effect.id);
+  }
+  const renderer::Effects made = renderer::effects_of(all, 7);
+  CHECK(made == renderer::Effects{catalogue, 7});
+  const renderer::Effects expected = renderer::without_draws(made);
+  for (const renderer::Effect& effect : renderer::effect_catalogue()) {
+    INFO(effect.name());
+    const bool drawn =
+        effect.id == core::EffectId::speckle || effect.id == core::EffectId::swerling;
+    CHECK(expected.runs(effect.id) != drawn);
+  }
+  CHECK(expected.seed == 7);
+}
+
+TEST_CASE("A set of effects gains and loses one, and sorts beside others", "[effects]") {
+  using enum core::EffectId;
+  core::EffectSet set{gas, speckle};
+  set.erase(gas);
+  set.erase(fog);  // it is not there
+  CHECK(set == core::EffectSet{speckle});
+  CHECK(set.with(gas, true) == core::EffectSet{speckle, gas});
+  CHECK(set.with(speckle, false) == core::EffectSet{});
+  CHECK(set.with(speckle, true) == set);
+  // As keys of renderers: one differs by its set, or by its seed.
+  const renderer::Effects one{{gas}, 1}, other{{fog}, 1}, reseeded{{gas}, 2};
+  CHECK((one < other) != (other < one));
+  CHECK((one < reseeded) != (reseeded < one));
 }
 
 // They were taken, and nothing came of them.

@@ -356,7 +356,7 @@ TEST_CASE("Where a wall stands on a mirror most of the power bounces twice", "[f
   world.specular = {materials::SpecularSurface{{1.0, 1e9}, 0.0},
                     materials::SpecularSurface{{1.0, 1e9}, 0.0}};
   const int corner = sensors::range_row(sensor.range, std::hypot(kFront_m, kAntennaHeight_m));
-  const renderer::Effects bounces{.double_bounce = true};
+  const renderer::Effects bounces{{core::EffectId::double_bounce}};
   for (const renderer::Sampling& sampling :
        {renderer::profile_sampling_for(4.0),
         renderer::refined_sampling(renderer::CasterKind::profile, 1.0)}) {
@@ -373,7 +373,7 @@ TEST_CASE("Where bounces are all there is their share is one at any sampling", "
   renderer::World world = plain_with_shed(sensor);
   world.specular = {materials::SpecularSurface{{1.0, 1e9}, 0.0},
                     materials::SpecularSurface{{1.0, 1e9}, 0.0}};
-  const renderer::Effects bounces{.double_bounce = true};
+  const renderer::Effects bounces{{core::EffectId::double_bounce}};
   using renderer::CasterKind;
   for (const renderer::Sampling& sampling :
        {renderer::profile_sampling_for(4.0), renderer::sampling_for(4.0),
@@ -439,12 +439,12 @@ TEST_CASE("In rain with bounces a frame has the same bytes with layers and with 
   weather.rain_rate_mm_per_h = 10.0;
   weather.rain_top_m = 12000.0;
   world.volume_echo.emplace(weather, 35e9);
-  const renderer::Effects effects{.rain_echo = true, .double_bounce = true};
+  const renderer::Effects effects{{core::EffectId::rain_echo, core::EffectId::double_bounce}};
   const renderer::Sampling sampling = renderer::profile_sampling_for(4.0);
   renderer::Sampling estimated = sampling;
   estimated.estimate_error = true;
   const renderer::Frame plain = rendered(world, sampling, effects, {});
-  const renderer::Frame dry = rendered(world, sampling, {.double_bounce = true}, {});
+  const renderer::Frame dry = rendered(world, sampling, {{core::EffectId::double_bounce}}, {});
   CHECK(plain.bscope_W != dry.bscope_W);
   for (const renderer::Frame& other :
        {rendered(world, sampling, effects), rendered(world, estimated, effects),

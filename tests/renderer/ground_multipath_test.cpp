@@ -261,8 +261,9 @@ TEST_CASE("Frames show the mean without and a phase with a realisation", "[multi
     renderer::World world = flat_world(1000.0, height_m, kMetal);
     world.nrcs = std::vector<materials::NrcsCurve>(2, materials::PhongNrcs(0.0, 0.0, 1.0));
     world.sensor.receiver.looks = 1000;
-    const double without_W = frame_W(world, {.speckle = speckle});
-    return frame_W(world, {.speckle = speckle, .multipath = true}) / without_W;
+    const core::EffectSet without = core::EffectSet{}.with(core::EffectId::speckle, speckle);
+    return frame_W(world, {without.with(core::EffectId::multipath, true)}) /
+           frame_W(world, {without});
   };
   for (const double height_m : {null_m, lobe_m})
     CHECK(ratio(height_m, false) == Approx(6.0).epsilon(0.01));
@@ -278,7 +279,8 @@ TEST_CASE("In a realisation over speckled ground nulls are the ground alone, lob
     renderer::World world = flat_world(1000.0, height_m, kMetal);
     world.targets[0].rcs = materials::ConstantRcs{100.0};
     world.sensor.receiver.looks = 1000;
-    const renderer::Effects effects{.speckle = true, .multipath = multipath};
+    const renderer::Effects effects{
+        core::EffectSet{core::EffectId::speckle}.with(core::EffectId::multipath, multipath)};
     const double with_W = frame_W(world, effects);
     world.targets.clear();
     return with_W - frame_W(world, effects);

@@ -15,10 +15,10 @@ TEST_CASE("T13 a sensor in or on the ground sees noise alone and is flagged", "[
   const renderer::World world =
       tests::world(tests::hivision(8),
                    tests::ground(4000.0, 100.0, [](double, double) { return 0.0; }), {kGrass});
-  const renderer::FrameRenderer frames(world, {}, {}, {.thermal_noise = true});
+  const renderer::FrameRenderer frames(world, {}, {}, {{core::EffectId::thermal_noise}});
   const renderer::World nothing = tests::world(tests::hivision(8), std::nullopt, {kGrass});
-  const renderer::Frame noise =
-      renderer::render_frame(nothing, {}, {}, {.thermal_noise = true}, tests::level_pose(60.0));
+  const renderer::Frame noise = renderer::render_frame(
+      nothing, {}, {}, {{core::EffectId::thermal_noise}}, tests::level_pose(60.0));
   CHECK(frames.render(tests::level_pose(1e-3)).events.empty());
   for (const double height_m : {-1.0, 0.0, -0.0, -1e-300}) {
     const renderer::Frame frame = frames.render(tests::level_pose(height_m));
@@ -61,14 +61,14 @@ TEST_CASE("T13 a C-scope of flat ground is black and flagged where no ground is 
     for (const renderer::World* world : {&nothing, &ground})
       for (const double height_m : {0.0, -5.0}) {
         const renderer::Frame frame = renderer::render_frame(
-            *world, {}, {}, {.thermal_noise = true}, tests::level_pose(height_m));
+            *world, {}, {}, {{core::EffectId::thermal_noise}}, tests::level_pose(height_m));
         INFO(height_m << " m" << (world == &nothing ? " over nothing" : ""));
         CHECK(std::count(frame.events.begin(), frame.events.end(), "below_terrain") == 1);
         for (const double power_W_m3 : frame.cscope_W_m3) CHECK(power_W_m3 == 0.0);
       }
     // Whoever asks for no C-scope has all that was asked for.
     const renderer::Frame bscope = renderer::render_frame(
-        nothing, {}, {.cscope = false}, {.thermal_noise = true}, tests::level_pose(-5.0));
+        nothing, {}, {.cscope = false}, {{core::EffectId::thermal_noise}}, tests::level_pose(-5.0));
     CHECK(bscope.events == std::vector<std::string>{"empty_view"});
   }
 }

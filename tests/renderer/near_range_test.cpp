@@ -78,7 +78,7 @@ terrain::PlacedMesh sheet(const glm::dvec3& centre_m, bool up) {
 renderer::Frame frame_of(const sensors::Sensor& sensor, std::vector<tests::Body> bodies,
                          const renderer::Sampling& sampling, double height_m) {
   const renderer::World world = tests::world(sensor, std::nullopt, {kGrass}, std::move(bodies));
-  return renderer::render_frame(world, sampling, {}, {.thermal_noise = true},
+  return renderer::render_frame(world, sampling, {}, {{core::EffectId::thermal_noise}},
                                 tests::level_pose(height_m));
 }
 

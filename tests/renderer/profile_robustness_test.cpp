@@ -72,7 +72,7 @@ TEST_CASE("R10 profile frames have the same bytes for 1 and 2 threads, again and
       sensor.scan.stabilised = stabilised;
       const renderer::World world = village(sensor);
       const renderer::FrameRenderer frames(world, renderer::profile_sampling_for(16.0), {},
-                                           {.thermal_noise = true});
+                                           {{core::EffectId::thermal_noise}});
       renderer::FramePose pose = tests::level_pose(90.0), other_pose = tests::level_pose(70.0);
       pose.q_NB = core::quaternion_from({0.1, -0.05, 0.2});
       const renderer::Frame expected = frames.render(pose);

@@ -41,7 +41,8 @@ renderer::World rainy_world(const sensors::Sensor& sensor, bool with_ground,
 
 renderer::Frame render(const renderer::World& world, bool echo = true,
                        renderer::Products products = {true, false}) {
-  return renderer::render_frame(world, renderer::sampling_for(2.0), products, {.rain_echo = echo},
+  return renderer::render_frame(world, renderer::sampling_for(2.0), products,
+                                {core::EffectSet{}.with(core::EffectId::rain_echo, echo)},
                                 tests::level_pose(kHeight_m));
 }
 
@@ -153,7 +154,7 @@ TEST_CASE("A leaning antenna hears uniform rain as a level one does, along as fe
   };
   const auto frame_from = [&](const renderer::FramePose& pose) {
     return renderer::render_frame(world, renderer::sampling_for(2.0), {true, false},
-                                  {.rain_echo = true}, pose);
+                                  {{core::EffectId::rain_echo}}, pose);
   };
   const renderer::Frame level = frame_from(leaning(0.0, 0.0)),
                         leant = frame_from(leaning(0.004, 0.003));  // 5 mrad
@@ -240,7 +241,7 @@ TEST_CASE("The side of a building cuts the rain behind it where it stands", "[ra
   const auto row_of = [&](const renderer::World& world, double samples) {
     const renderer::Frame frame =
         renderer::render_frame(world, renderer::sampling_for(samples), {true, false},
-                               {.rain_echo = true}, tests::level_pose(kHeight_m));
+                               {{core::EffectId::rain_echo}}, tests::level_pose(kHeight_m));
     return std::vector<double>(frame.bscope_W.begin() + cell * 8,
                                frame.bscope_W.begin() + cell * 8 + 8);
   };

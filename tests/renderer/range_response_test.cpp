@@ -118,8 +118,7 @@ TEST_CASE("a point target's measured response has the window's side lobe and wid
                       materials::ConstantRcs{1.0},
                       {{0.0, {0.0, range_m * std::cos(e), 100.0 + range_m * std::sin(e)}}},
                       glm::dmat3(1.0)}};
-    renderer::Effects effects;
-    effects.range_response = true;
+    const renderer::Effects effects{{core::EffectId::range_response}};
     const renderer::Frame frame =
         renderer::render_frame(world, {}, {true, false}, effects, tests::level_pose(100.0));
     const auto power = [&](int k) { return frame.bscope_W[static_cast<std::size_t>(k * 8 + 4)]; };
@@ -243,8 +242,7 @@ TEST_CASE("without a window the effect switched on changes no byte, nor do more 
     sensors::Sensor sensor = with_window(window, 6);
     const renderer::World world = tests::world(
         sensor, tests::ground(4000.0, 250.0, [](double, double) { return 0.0; }), {grass});
-    renderer::Effects effects;
-    effects.range_response = on;
+    const renderer::Effects effects{core::EffectSet{}.with(core::EffectId::range_response, on)};
     return renderer::render_frame(world, {}, {true, true}, effects, tests::level_pose(60.0));
   };
   const renderer::Frame off = render(Window::none, false, 0);

@@ -41,7 +41,7 @@ bool same_frame(const renderer::Frame& a, const renderer::Frame& b) {
 }
 
 const renderer::Effects kSample{
-    .thermal_noise = true, .speckle = true, .swerling = true, .seed = 3};
+    {core::EffectId::thermal_noise, core::EffectId::speckle, core::EffectId::swerling}, 3};
 
 core::EffectDecision decision(const renderer::SceneFacts& facts, core::EffectId effect,
                               const std::string& wishes = "") {
@@ -117,9 +117,9 @@ TEST_CASE("M06 a session's realisations do not come back after 2^32 frames", "[M
 
 TEST_CASE("R19 nothing to fluctuate equals off, byte for byte", "[R19]") {
   const renderer::World world = field_of_two(Swerling::steady);
-  const renderer::Effects off{.thermal_noise = true, .seed = 3};
+  const renderer::Effects off{{core::EffectId::thermal_noise}, 3};
   renderer::Effects swerling = off;
-  swerling.swerling = true;
+  swerling.on.insert(core::EffectId::swerling);
   CHECK(same_frame(frame_with(world, swerling), frame_with(world, off)));
   // Off takes no draw: the seed does not matter.
   renderer::Effects other_seed = off;
@@ -127,7 +127,7 @@ TEST_CASE("R19 nothing to fluctuate equals off, byte for byte", "[R19]") {
   CHECK(same_frame(frame_with(world, other_seed), frame_with(world, off)));
   // Speckle of zero power is zero power.
   const renderer::World nothing = tests::world(tests::hivision(8), std::nullopt, {});
-  CHECK(same_frame(frame_with(nothing, {.speckle = true}), frame_with(nothing, {})));
+  CHECK(same_frame(frame_with(nothing, {{core::EffectId::speckle}}), frame_with(nothing, {})));
 }
 
 TEST_CASE("Realisations average to the expected power with its noise, ground and targets alike",
@@ -135,8 +135,9 @@ TEST_CASE("Realisations average to the expected power with its noise, ground and
   constexpr int kFrames = 300;
   for (const Swerling swerling : {Swerling::steady, Swerling::case1, Swerling::case4}) {
     const renderer::World world = field_of_two(swerling, 2);
+    // Noise is added for display.
     const std::vector<double> expected_W =
-        frame_with(world, {.thermal_noise = true}).bscope_W;  // noise is added for display
+        frame_with(world, {{core::EffectId::thermal_noise}}).bscope_W;
     const double noise_W = world.sensor.noise_power_W();
     std::vector<double> mean_W(expected_W.size(), 0.0);
     for (std::uint32_t frame = 0; frame < kFrames; ++frame) {

@@ -86,7 +86,8 @@ TEST_CASE("The true error over a city lies within a factor 1.5 of its estimate",
   std::vector<Tally> tallies(samplings.size());
   for (std::uint64_t number = 0; number < kPoses; ++number) {
     const renderer::FramePose pose = pose_of(number);
-    const renderer::Effects effects{.thermal_noise = number % 2 == 1};
+    const renderer::Effects effects{
+        core::EffectSet{}.with(core::EffectId::thermal_noise, number % 2 == 1)};
     const auto render = [&](const renderer::Sampling& sampling) {
       return renderer::render_frame(world, sampling, {}, effects, pose);
     };
@@ -106,7 +107,7 @@ TEST_CASE("The true error over a city lies within a factor 1.5 of its estimate",
       }
       const renderer::GreyReference& reference =
           samplings[s].caster == renderer::CasterKind::rays ? by_rays : by_slices;
-      tallies[s].add(true_error_grey(reference, frame, effects.thermal_noise),
+      tallies[s].add(true_error_grey(reference, frame, effects.runs(core::EffectId::thermal_noise)),
                      frame.error->rms_grey);
     }
   }

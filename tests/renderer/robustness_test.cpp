@@ -50,7 +50,7 @@ TEST_CASE("R10 the same bytes for any number of threads, any order of frames and
           "[robust]") {
   const renderer::World world = village(40);
   const renderer::FrameRenderer frames(world, renderer::sampling_for(8.0), {},
-                                       {.thermal_noise = true});
+                                       {{core::EffectId::thermal_noise}});
   const renderer::Frame expected = frames.render(tests::level_pose(90.0));
   const renderer::Frame other = frames.render(tests::level_pose(70.0));
   CHECK_FALSE(same_bytes(expected.bscope_W, other.bscope_W));
@@ -92,8 +92,8 @@ TEST_CASE("R16 nothing in view gives a picture of noise and says so", "[robust]"
   const sensors::Sensor sensor = tests::hivision(8);
   SECTION("no geometry at all") {
     const renderer::World world = tests::world(sensor, std::nullopt, {kGrass});
-    const renderer::Frame frame =
-        renderer::render_frame(world, {}, {}, {.thermal_noise = true}, tests::level_pose(60.0));
+    const renderer::Frame frame = renderer::render_frame(
+        world, {}, {}, {{core::EffectId::thermal_noise}}, tests::level_pose(60.0));
     check_finite(frame);
     CHECK(frame.events == std::vector<std::string>{"empty_view"});
     for (const double power_W : frame.bscope_W) CHECK(power_W == 0.0);
@@ -107,8 +107,8 @@ TEST_CASE("R16 nothing in view gives a picture of noise and says so", "[robust]"
     one.mesh.material_names = {"wall"};
     one.material_of_name = {0};
     const renderer::World world = tests::world(sensor, std::nullopt, {kGrass}, {one});
-    const renderer::Frame frame =
-        renderer::render_frame(world, {}, {}, {.thermal_noise = true}, tests::level_pose(60.0));
+    const renderer::Frame frame = renderer::render_frame(
+        world, {}, {}, {{core::EffectId::thermal_noise}}, tests::level_pose(60.0));
     check_finite(frame);
     CHECK(frame.events.empty());
     // All of the triangle's power lies in the one or two cells of a wall at 1000 m.
@@ -129,8 +129,8 @@ TEST_CASE("R16 nothing in view gives a picture of noise and says so", "[robust]"
     const renderer::World world =
         tests::world(sensor, std::nullopt, {kGrass},
                      {tests::box({-50.0, -900.0, 0.0}, {50.0, -800.0, 50.0}, 0)});
-    const renderer::Frame frame =
-        renderer::render_frame(world, {}, {}, {.thermal_noise = true}, tests::level_pose(60.0));
+    const renderer::Frame frame = renderer::render_frame(
+        world, {}, {}, {{core::EffectId::thermal_noise}}, tests::level_pose(60.0));
     check_finite(frame);
     CHECK(frame.events == std::vector<std::string>{"empty_view"});
   }
@@ -139,8 +139,8 @@ TEST_CASE("R16 nothing in view gives a picture of noise and says so", "[robust]"
     tiny.range.cells = 1;
     tiny.display.cscope_rows = 1;
     const renderer::World world = tests::world(tiny, rolling_ground(), {kGrass});
-    check_finite(
-        renderer::render_frame(world, {}, {}, {.thermal_noise = true}, tests::level_pose(60.0)));
+    check_finite(renderer::render_frame(world, {}, {}, {{core::EffectId::thermal_noise}},
+                                        tests::level_pose(60.0)));
   }
 }
 
@@ -149,10 +149,11 @@ TEST_CASE("M02 a perfectly dark surface equals the noise-only picture exactly", 
   const renderer::World dark = tests::world(sensor, rolling_ground(), {kBlack});
   const renderer::World nothing = tests::world(sensor, std::nullopt, {kBlack});
   for (const bool noise : {true, false}) {
+    const renderer::Effects effects{core::EffectSet{}.with(core::EffectId::thermal_noise, noise)};
     const renderer::Frame a =
-        renderer::render_frame(dark, {}, {}, {.thermal_noise = noise}, tests::level_pose(80.0));
+        renderer::render_frame(dark, {}, {}, effects, tests::level_pose(80.0));
     const renderer::Frame b =
-        renderer::render_frame(nothing, {}, {}, {.thermal_noise = noise}, tests::level_pose(80.0));
+        renderer::render_frame(nothing, {}, {}, effects, tests::level_pose(80.0));
     CHECK(same_bytes(a.bscope_grey, b.bscope_grey));
     CHECK(same_bytes(a.cscope_grey, b.cscope_grey));
     if (!noise)
@@ -219,7 +220,7 @@ TEST_CASE("R12 an impossible pose is refused by class, and the next frame is ren
   for (const renderer::CasterKind kind :
        {renderer::CasterKind::rays, renderer::CasterKind::profile}) {
     const renderer::FrameRenderer frames(world, renderer::sampling_for(kind, 2.0), {},
-                                         {.thermal_noise = true});
+                                         {{core::EffectId::thermal_noise}});
     const renderer::Frame expected = frames.render(tests::level_pose(60.0));
     const auto refused = [&](core::ErrorClass error_class, const Change& change) {
       renderer::FramePose pose = tests::level_pose(60.0);

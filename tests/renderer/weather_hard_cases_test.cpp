@@ -37,7 +37,7 @@ bool same_pictures(const renderer::Frame& a, const renderer::Frame& b) {
 
 TEST_CASE("A02 no rain and nearly no rain give the picture of clear air, value for value",
           "[weather_hard_cases][A02]") {
-  const renderer::Effects effects{.thermal_noise = true, .rain_echo = true};
+  const renderer::Effects effects{{core::EffectId::thermal_noise, core::EffectId::rain_echo}};
   renderer::World world = grass(tests::hivision(4), 4000.0);
   const renderer::Frame clear = frame_of(world, 60.0, effects);
   REQUIRE(*std::max_element(clear.bscope_W.begin(), clear.bscope_W.end()) > 0.0);
@@ -57,7 +57,7 @@ TEST_CASE("A03 behind 435 dB of rain every pixel is the noise floor, exactly",
   sensors::Sensor sensor = tests::hivision(4);
   sensor.range = {10000.0 - 8 * 6.67, 6.67, 16};
   constexpr double kAntenna_m = 600.0;
-  const renderer::Effects noisy{.thermal_noise = true};
+  const renderer::Effects noisy{{core::EffectId::thermal_noise}};
   renderer::World world = grass(sensor, 12000.0);
   const renderer::Frame clear = frame_of(world, kAntenna_m, {});
   const renderer::Frame clear_noisy = frame_of(world, kAntenna_m, noisy);

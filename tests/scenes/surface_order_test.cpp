@@ -28,7 +28,8 @@ std::map<int, double> grey_of(const materials::MaterialLibrary& library, const s
                    {curves[*library.index_of(name)]});
   const renderer::Frame frame =
       renderer::render_frame(world, renderer::sampling_for(4.0), {true, false},
-                             {.thermal_noise = noise}, tests::level_pose(kSensorHeight_m));
+                             {core::EffectSet{}.with(core::EffectId::thermal_noise, noise)},
+                             tests::level_pose(kSensorHeight_m));
   std::map<int, double> grey;
   for (int row = 0; row < sensor.range.cells; ++row) {
     const double grazing_deg =

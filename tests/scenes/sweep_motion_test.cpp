@@ -17,7 +17,7 @@ TEST_CASE("S11: a frame flown at 70 m/s is the picture of a radar that stands th
   const scenes::Scene& scene = *outcome.scene;
   const double rate_Hz = scene.world.sensor.scan.frame_rate_Hz;
   const renderer::FrameRenderer frames(scene.world, renderer::sampling_for(1.0), {},
-                                       {.thermal_noise = true});
+                                       {{core::EffectId::thermal_noise}});
   for (const int frame : {0, 1, 100}) {
     core::Pose standing = scene.trajectory->at((frame + 0.5) / rate_Hz);
     CHECK(std::hypot(standing.v_N_mps.x, standing.v_N_mps.y) == Approx(70.0).epsilon(1e-3));
