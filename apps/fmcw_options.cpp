@@ -123,7 +123,10 @@ void add_processing(CLI::App& command, FmcwOptions& options) {
              "Over fast time: rectangular, hann, hamming, blackman, blackman-harris, taylor:DB, "
              "chebyshev:DB or kaiser:BETA");
   add_window(command, "--doppler-window", options.doppler_window, "Over slow time");
-  add_window(command, "--angle-window", options.angle_window, "Over the channels of a line");
+  add_window(
+      command, "--angle-window", options.angle_window,
+      "Over the channels, for the beams of cube, range-azimuth and top-view, not for detections "
+      "or what --angle-method capon makes; of arrays on a line at one pitch alone");
   command
       .add_option_function<std::string>(
           "--mitigation",
@@ -155,9 +158,9 @@ void add_processing(CLI::App& command, FmcwOptions& options) {
           [&options](const std::string& word) {
             options.angle_method = *signal::angle_method(word);
           },
-          "Directions of a cell: the strongest beam; capon and music, of four channels or more, "
-          "tell "
-          "two inside a beamwidth apart, capon sharpens the range-azimuth map too (default "
+          "Directions of a cell: the strongest beam; capon and music, of four channels or more "
+          "on a line at one pitch (arrays in two dimensions have beamforming alone), tell two "
+          "inside a beamwidth apart, capon sharpens the range-azimuth map too (default "
           "beamforming)")
       ->check(CLI::IsMember({"beamforming", "capon", "music"}));
   command

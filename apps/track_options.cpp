@@ -22,9 +22,9 @@ void add_own_data(CLI::App& command, TrackOptions& options) {
       ->type_name(kFolderValue);
   command
       .add_option("--radar-speed", options.radar_speed_mps,
-                  "m/s forward, which tells what moves (default: as the scene, the detections or "
-                  "the run.json "
-                  "of fanbeam fmcw tell, else 0)")
+                  "m/s forward, which tells what moves (default: as the scene, JSON of detections "
+                  "or, for tables and samples, the run.json of fanbeam fmcw in the folder above "
+                  "them tell, else 0)")
       ->check(number_from(-1000.0, 1000.0));
   command
       .add_option(
@@ -120,7 +120,7 @@ CLI::App& add_track_command(CLI::App& program, TrackOptions& options) {
       .add_option(
           "INPUT", options.file,
           "JSON file of highway scenarios; or a scene; a folder of fanbeam fmcw; detections, "
-          ".csv or .json; samples, .npy")
+          ".csv or .json, or a folder of either; samples, .npy")
       ->type_name(kInputValue)
       ->required();
   add_own_data(command, options);

@@ -379,12 +379,16 @@ Waveforms waveforms_of(const JsonNode& table, core::HighwayRadar& radar) {
 void choose_waveforms(const JsonNode& names, const Waveforms& named,
                       core::HighwayScenario& scenario) {
   if (!names.present()) return;
+  std::vector<std::string> known;
+  for (const auto& [name, waveform] : named) known.push_back(name);
   const std::size_t count = names.size(kMostEntries);
   for (std::size_t i = 0; i < count; ++i) {
     const std::string name = names.element(i).text().value_or("");
     const auto found = named.find(name);
     if (found == named.end()) {
-      names.element(i).error(ErrorClass::ref, "the name of one of /waveforms");
+      if (names.problems().is_full()) return;
+      names.element(i).error(ErrorClass::ref,
+                             "the name of one of /waveforms" + core::names_there_text(name, known));
       continue;
     }
     std::vector<std::string>& types = scenario.waveform_types;

@@ -1,19 +1,14 @@
 #include "session/signal/detection_file.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <system_error>
+#include <utility>
 
-#include "core/constants.h"
-#include "core/json_node.h"
-#include "core/text.h"
-#include "core/units.h"
-#include "scenes/line_reader.h"
+#include "session/signal/detection_readers.h"
+#include "session/signal/recorded_moments.h"
+#include "session/signal/sources/measured_source.h"
 #include "signal/detection/clusters.h"
 
 namespace fanbeam::session {
@@ -21,200 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using core::ErrorClass;
-using core::JsonNode;
-
-constexpr std::uint64_t kLargestFile_bytes = 256ULL << 20U;
-constexpr core::JsonLimits kJsonLimits{16, 20'000'000};
-constexpr std::size_t kMostFrames = 1'000'000;
-constexpr std::size_t kMostDetections = 100'000;
-constexpr std::size_t kMostProblems = 100;
-constexpr core::NumberRange kTimes_s{-1e10, 1e10};
-constexpr core::NumberRange kRanges_m{0.0, 1e6, true};
-constexpr core::NumberRange kSpeeds_mps{-1e5, 1e5};
-constexpr core::NumberRange kTurn_rad{-core::kPi, core::kPi};
-constexpr core::NumberRange kRise_rad{-0.5 * core::kPi, 0.5 * core::kPi};
-constexpr core::NumberRange kRatios_dB{-300.0, 300.0};
-constexpr core::NumberRange kPowers_W{0.0, 1e12};
-constexpr core::NumberRange kClusters{-1.0, 1e9};
-
-// What a table may say of a detection, and in which column it does.
-struct Column {
-  const char* name;
-  core::NumberRange range;
-  bool needed;
-};
-constexpr std::array<Column, 8> kColumns = {{{"time_s", kTimes_s, true},
-                                             {"range_m", kRanges_m, true},
-                                             {"radial_speed_mps", kSpeeds_mps, true},
-                                             {"azimuth_deg", {-180.0, 180.0}, true},
-                                             {"power_W", kPowers_W, false},
-                                             {"snr_dB", kRatios_dB, false},
-                                             {"cluster", kClusters, false},
-                                             {"elevation_deg", {-90.0, 90.0}, false}}};
-enum { kTime, kRange, kSpeed, kAzimuth, kPower, kRatio, kCluster, kElevation };
-
-std::vector<std::string_view> cells_of(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (std::size_t from = 0; from <= line.size();) {
-    const std::size_t comma = std::min(line.find(',', from), line.size());
-    cells.push_back(core::trimmed(line.substr(from, comma - from)));
-    from = comma + 1;
-  }
-  return cells;
-}
-
-void add(DetectedFrame& frame, const std::array<double, kColumns.size()>& values) {
-  signal::RadarDetection detection;
-  detection.range_m = values[kRange];
-  detection.radial_speed_mps = values[kSpeed];
-  detection.azimuth_rad = core::radians(values[kAzimuth]);
-  detection.elevation_rad = core::radians(values[kElevation]);
-  detection.power_W = values[kPower];
-  detection.snr = std::pow(10.0, 0.1 * values[kRatio]);
-  frame.detections.push_back(detection);
-  frame.clusters.push_back(static_cast<int>(values[kCluster]));
-}
-
-class Table {
- public:
-  Table(const fs::path& path, core::ProblemList& problems)
-      : problems_(problems), lines_(path, problems) {}
-
-  std::vector<DetectedFrame> read() {
-    std::string_view line;
-    if (!lines_.next(line)) return {};
-    if (!read_names(line)) return {};
-    while (lines_.next(line) && problems_.all().size() < kMostProblems) read_row(line);
-    return std::move(frames_);
-  }
-
- private:
-  bool read_names(std::string_view line) {
-    const auto names = cells_of(line);
-    width_ = names.size();
-    bool good = true;
-    for (std::size_t i = 0; i < kColumns.size(); ++i) {
-      if (std::count(names.begin(), names.end(), kColumns[i].name) > 1) {
-        problems_.error(ErrorClass::parse, lines_.place(), kColumns[i].name, "twice", "one column");
-        good = false;
-      }
-      const auto found = std::find(names.begin(), names.end(), kColumns[i].name);
-      place_[i] = found == names.end() ? width_ : static_cast<std::size_t>(found - names.begin());
-      if (found != names.end() || !kColumns[i].needed) continue;
-      problems_.error(ErrorClass::ref, lines_.place(), kColumns[i].name, "missing",
-                      "columns time_s, range_m, radial_speed_mps and azimuth_deg");
-      good = false;
-    }
-    return good;
-  }
-
-  void read_row(std::string_view line) {
-    const auto cells = cells_of(line);
-    if (cells.size() != width_) {
-      problems_.error(ErrorClass::parse, lines_.place(), "row",
-                      std::to_string(cells.size()) + " cells",
-                      std::to_string(width_) + ", as the first line has");
-      return;
-    }
-    std::array<double, kColumns.size()> values{};
-    values[kCluster] = signal::kNoCluster;
-    values[kRatio] = kRatios_dB.high;  // not told: the errors stand alone
-    bool good = true;
-    for (std::size_t i = 0; i < kColumns.size(); ++i)
-      if (place_[i] < width_) good = take(cells[place_[i]], kColumns[i], values[i]) && good;
-    if (good) put(values);
-  }
-
-  bool take(std::string_view text, const Column& column, double& value) {
-    if (text.empty() && !column.needed) return true;
-    const core::ParsedNumber number = core::parse_number(text);
-    const bool whole = &column != &kColumns[kCluster] || number.value == std::floor(number.value);
-    if (number.error == core::NumberError::none && column.range.holds(number.value) && whole) {
-      value = number.value;
-      return true;
-    }
-    problems_.error(number.error == core::NumberError::not_a_number ? ErrorClass::parse
-                    : number.error == core::NumberError::nonfinite  ? ErrorClass::nonfinite
-                                                                    : ErrorClass::range,
-                    lines_.place(), column.name, core::printable_text(text.substr(0, 40)),
-                    to_string(column.range) + (whole ? "" : ", a whole number"));
-    return false;
-  }
-
-  void put(const std::array<double, kColumns.size()>& values) {
-    if (!frames_.empty() && values[kTime] < frames_.back().time_s) {
-      problems_.error(ErrorClass::time, lines_.place(), "time_s", core::number_text(values[kTime]),
-                      "times that do not go back");
-      return;
-    }
-    if (frames_.empty() || values[kTime] > frames_.back().time_s) {
-      if (frames_.size() == kMostFrames) return too_many("frames", kMostFrames);
-      frames_.push_back({values[kTime], {}, {}, {}});
-    }
-    if (frames_.back().detections.size() == kMostDetections)
-      return too_many("detections in a frame", kMostDetections);
-    add(frames_.back(), values);
-  }
-
-  void too_many(const char* what, std::size_t most) {
-    if (!told_)
-      problems_.error(ErrorClass::limit, lines_.place(), what, "more than " + std::to_string(most),
-                      "at most " + std::to_string(most));
-    told_ = true;
-  }
-
-  core::ProblemList& problems_;
-  scenes::LineReader lines_;
-  std::array<std::size_t, kColumns.size()> place_{};
-  std::size_t width_ = 0;
-  std::vector<DetectedFrame> frames_;
-  bool told_ = false;
-};
-
-// Those that this program writes; of some it makes nothing.
-const std::vector<const char*> kFrameMembers = {"frame", "time_s", "radar_speed_mps",
-                                                "radar_velocity_mps", "detections"};
-const std::vector<const char*> kDetectionMembers = {
-    "range_m", "radial_speed_mps", "azimuth_rad", "elevation_rad", "power_W",
-    "snr_dB",  "forward_m",        "right_m",     "cluster"};
-
-DetectedFrame frame_in(const JsonNode& node) {
-  check_keys(node, kFrameMembers);
-  DetectedFrame frame;
-  frame.time_s = node.required("time_s").number(kTimes_s).value_or(0.0);
-  frame.radar_velocity_mps = radar_velocity_in(node);
-  const JsonNode list = node.required("detections");
-  const std::size_t count = list.size(kMostDetections);
-  for (std::size_t i = 0; i < count; ++i) {
-    const JsonNode one = list.element(i);
-    check_keys(one, kDetectionMembers);
-    std::array<double, kColumns.size()> values{};
-    values[kRange] = one.required("range_m").number(kRanges_m).value_or(1.0);
-    values[kSpeed] = one.required("radial_speed_mps").number(kSpeeds_mps).value_or(0.0);
-    values[kAzimuth] = core::degrees(one.required("azimuth_rad").number(kTurn_rad).value_or(0.0));
-    values[kElevation] = core::degrees(one.member("elevation_rad").number(kRise_rad).value_or(0.0));
-    values[kPower] = one.member("power_W").number(kPowers_W).value_or(0.0);
-    values[kRatio] = one.member("snr_dB").number(kRatios_dB).value_or(kRatios_dB.high);
-    values[kCluster] = one.member("cluster").whole(-1, 1'000'000'000).value_or(signal::kNoCluster);
-    add(frame, values);
-  }
-  return frame;
-}
-
-void read_json(const fs::path& path, std::vector<DetectedFrame>& frames,
-               core::ProblemList& problems) {
-  const auto file = core::read_json_file(path, kLargestFile_bytes, kJsonLimits, problems);
-  if (!file) return;
-  const JsonNode root(*file, problems);
-  const JsonNode list = root.member("frames");
-  if (!list.present()) {
-    frames.push_back(frame_in(root));
-  } else {
-    check_keys(root, {"frames"});
-    const std::size_t count = list.size(kMostFrames);
-    for (std::size_t i = 0; i < count; ++i) frames.push_back(frame_in(list.element(i)));
-  }
-}
 
 // Adds the detections of a frame to another. Each has numbered its clusters on its own: those of the added one
 // count from `next`, above all numbers so far, which moves on behind them.
@@ -230,60 +31,114 @@ void append(const DetectedFrame& added, DetectedFrame& frame, int& next) {
   next += static_cast<int>(renumbered.size());
 }
 
-// Frames of one time are one frame, as in a table.
-std::vector<DetectedFrame> in_order(std::vector<DetectedFrame> frames, const fs::path& path,
-                                    core::ProblemList& problems) {
-  std::vector<DetectedFrame> result;
-  int next_cluster = 0;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    DetectedFrame& one = frames[i];
-    if (result.empty() || one.time_s > result.back().time_s) {
-      next_cluster = 0;
-      for (const int number : one.clusters) next_cluster = std::max(next_cluster, number + 1);
-      result.push_back(std::move(one));
-    } else if (one.time_s == result.back().time_s) {
-      append(one, result.back(), next_cluster);
-    } else if (problems.all().size() < kMostProblems) {
-      problems.error(ErrorClass::time, {path.string()}, "frame " + std::to_string(i) + " time_s",
-                     core::number_text(one.time_s), "times that do not go back");
+// Frames of one time are one frame, of a file or of several.
+class FramesInOrder {
+ public:
+  void add(std::vector<DetectedFrame> frames, const fs::path& file, core::ProblemList& problems) {
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      DetectedFrame& one = frames[i];
+      if (frames_.empty() || one.time_s > frames_.back().time_s) {
+        next_cluster_ = 0;
+        for (const int number : one.clusters) next_cluster_ = std::max(next_cluster_, number + 1);
+        frames_.push_back(std::move(one));
+      } else if (one.time_s == frames_.back().time_s) {
+        append(one, frames_.back(), next_cluster_);
+      } else if (problems.all().size() < kMostDetectionProblems) {
+        problems.error(ErrorClass::time, {file.string()}, "frame " + std::to_string(i) + " time_s",
+                       core::number_text(one.time_s), "times that do not go back");
+      }
     }
   }
-  return result;
+  std::vector<DetectedFrame> taken() { return std::move(frames_); }
+
+ private:
+  std::vector<DetectedFrame> frames_;
+  int next_cluster_ = 0;
+};
+
+// Of a folder, by their names.
+struct FilesOfDetections {
+  std::vector<fs::path> json, tables;
+  const std::vector<fs::path>& taken() const { return json.empty() ? tables : json; }
+};
+
+FilesOfDetections files_of_detections(const fs::path& folder) {
+  std::error_code status;
+  const fs::path below = folder / "detections";
+  const bool is_below = fs::is_directory(below, status);
+  FilesOfDetections files;
+  for (const auto& entry : fs::directory_iterator(is_below ? below : folder, status)) {
+    const fs::path name = entry.path().filename();
+    const bool record = name == "run.json" || name == "timing.json" ||
+                        name.string().starts_with('.');  // a file that was never finished
+    if (record || !entry.is_regular_file(status)) continue;
+    if (name.extension() == ".json") files.json.push_back(entry.path());
+    if (name.extension() == ".csv") files.tables.push_back(entry.path());
+  }
+  // Somebody's notes.
+  if (!is_below && !sample_files_in(folder).empty()) files.tables.clear();
+  std::sort(files.json.begin(), files.json.end());
+  std::sort(files.tables.begin(), files.tables.end());
+  return files;
+}
+
+// `fanbeam fmcw` writes both of a frame, and JSON tells all that a table does: one without would be left out.
+void refuse_lone_tables(const FilesOfDetections& files, core::ProblemList& problems) {
+  if (files.json.empty()) return;
+  for (const fs::path& table : files.tables) {
+    const fs::path beside = fs::path(table).replace_extension(".json");
+    if (problems.all().size() >= kMostDetectionProblems) return;
+    if (!std::binary_search(files.json.begin(), files.json.end(), beside))
+      problems.error(ErrorClass::ref, {table.string()}, "detections", "a table among files *.json",
+                     beside.filename().string() + " beside it, or tables alone");
+  }
+}
+
+// What the record of `fanbeam fmcw` knows of a table: the radar's velocity, and when nothing was detected.
+void put_moment(const RecordedMoment& moment, const fs::path& file,
+                std::vector<DetectedFrame>& frames, core::ProblemList& problems) {
+  constexpr double kDigit_s = 1e-6;  // the last of a table
+  if (frames.empty()) frames.push_back({moment.time_s, {}, {}, {}});
+  for (DetectedFrame& one : frames) {
+    one.radar_velocity_mps = moment.radar_velocity_mps;
+    if (std::abs(one.time_s - moment.time_s) <= kDigit_s) continue;
+    return problems.error(ErrorClass::time, {file.string()}, "time_s",
+                          core::number_text(one.time_s),
+                          core::number_text(moment.time_s) +
+                              ", as the run.json in the folder above tells of this file");
+  }
 }
 
 }  // namespace
 
 std::vector<fs::path> detection_files(const fs::path& folder) {
-  std::error_code status;
-  const fs::path below = folder / "detections";
-  std::vector<fs::path> files;
-  for (const auto& entry :
-       fs::directory_iterator(fs::is_directory(below, status) ? below : folder, status)) {
-    const fs::path name = entry.path().filename();
-    const bool record = name == "run.json" || name == "timing.json" ||
-                        name.string().starts_with('.');  // a file that was never finished
-    if (name.extension() == ".json" && !record && entry.is_regular_file(status))
-      files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
+  return files_of_detections(folder).taken();
 }
 
 std::vector<DetectedFrame> read_detections(const fs::path& path, core::ProblemList& problems) {
   std::error_code status;
-  if (path.extension() == ".csv") return Table(path, problems).read();
   std::vector<fs::path> files{path};
-  if (fs::is_directory(path, status)) files = detection_files(path);
-  if (files.empty() || files.size() > kMostFrames)
+  if (fs::is_directory(path, status)) {
+    const FilesOfDetections found = files_of_detections(path);
+    refuse_lone_tables(found, problems);
+    files = found.taken();
+  }
+  if (files.empty() || files.size() > kMostDetectedFrames)
     problems.error(ErrorClass::io, {path.string()}, "detections",
                    files.empty() ? "none" : "more than a million",
-                   "files *.json, here or in detections/");
-  std::vector<DetectedFrame> frames;
-  for (const fs::path& file : files) {
-    if (problems.all().size() >= kMostProblems) break;
-    read_json(file, frames, problems);
+                   "files *.json or *.csv, here or in detections/");
+  const bool tables = !files.empty() && files.front().extension() == ".csv";
+  std::vector<RecordedMoment> moments;
+  if (tables) moments = recorded_moments(files, "--radar-speed counts, or 0 without it", problems);
+  FramesInOrder frames;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (problems.all().size() >= kMostDetectionProblems) break;
+    std::vector<DetectedFrame> read =
+        tables ? read_detection_table(files[i], problems) : read_detection_json(files[i], problems);
+    if (!moments.empty()) put_moment(moments[i], files[i], read, problems);
+    frames.add(std::move(read), files[i], problems);
   }
-  return in_order(std::move(frames), path, problems);
+  return frames.taken();
 }
 
 }  // namespace fanbeam::session

@@ -10,7 +10,11 @@
 // forward alone. What `fanbeam fmcw` writes beside these (frame, forward_m, right_m) is passed over,
 // any other member is E-REF.
 // A folder: the files *.json in it (but run.json and timing.json), or in detections/ below it, in the
-// order of their names.
+// order of their names; where there are none, the files *.csv likewise, but not beside samples. A table
+// among JSON without a file of its name in JSON is E-REF.
+// A table does not tell the radar's velocity: it is that of the run.json of `fanbeam fmcw` in the folder
+// above (recorded_moments.h), which also tells the time of a table without rows (without it, no frame) and
+// may not contradict a row's (E-TIME).
 // Frames of one time are one; clusters are each frame's own, whatever their numbers.
 //
 // Limits: files of 256 MiB, a million frames, 100 000 detections in a frame (a tracker takes fewer
@@ -34,12 +38,13 @@ struct DetectedFrame {
   double time_s = 0.0;
   std::vector<signal::RadarDetection> detections;
   std::vector<int> clusters;                              // of each, or signal::kNoCluster
-  std::optional<RadarVelocity_mps> radar_velocity_mps{};  // where the file tells it
+  std::optional<RadarVelocity_mps> radar_velocity_mps{};  // where the file or its record tells it
 };
 
 // Of a folder; none where it holds none.
 std::vector<std::filesystem::path> detection_files(const std::filesystem::path& folder);
 
+// Warns (W-TIMES) where that record does not know all tables.
 std::vector<DetectedFrame> read_detections(const std::filesystem::path& path,
                                            core::ProblemList& problems);
 

@@ -21,8 +21,9 @@
 //                 mitigation_threshold_dB, above 0 to 60;
 //                 cfar "ca" | "os" | "go" | "so"; cfar_guard, cfar_training: [range, Doppler] cells on each
 //                 side, 0 to 64, the guard over the windows' main lobe; false_alarm_probability, 1e-12 to 0.1;
-//                 angle_method "beamforming" | "capon" | "music"; cluster_place_m, cluster_speed_mps, above 0 to 1000;
-//                 cluster_neighbours, 1 to 100; unfold; most_range_m, above 0 to 1e6
+//                 angle_method "beamforming" | "capon" | "music": the latter two, and angle_window (of beams,
+//                 not of detections), of lines at one pitch alone; cluster_place_m, cluster_speed_mps, above 0
+//                 to 1000; cluster_neighbours, 1 to 100; unfold; most_range_m, above 0 to 1e6
 //
 // All keys are optional; what is missing keeps its default, a scene's sensor's where there is one (without a scene
 // frequency, bandwidth and noise figure have to be told, of samples their rate too). Unknown keys are errors.

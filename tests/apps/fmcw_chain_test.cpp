@@ -198,6 +198,28 @@ TEST_CASE("Errors of channels are in the samples and bend the beam", "[fmcw]") {
   CHECK_THROWS_AS(fmcw_radar(options, sensor), core::InputError);
 }
 
+TEST_CASE("A window over the channels weighs beams and changes no detection", "[fmcw]") {
+  const sensors::Sensor sensor = automotive();
+  FmcwSettings options;
+  options.numbers[11] = 16.0;
+  const FmcwRadar radar = fmcw_radar(options, sensor);
+  signal::ScatterPath path;
+  path.range_m = 40.0;
+  path.azimuth_rad = 0.2;
+  path.amplitude_sqrtW = 1e-6;
+  const auto made = [&] {
+    return fmcw_frame(radar, {path}, 0, options, {"detections", "range-azimuth"});
+  };
+  const FmcwFrame tapered = made();
+  options.angle_window = {};
+  const FmcwFrame even = made();
+  REQUIRE(tapered.found->detections.size() == 1);
+  REQUIRE(even.found->detections.size() == 1);
+  CHECK(even.found->detections[0].azimuth_rad == tapered.found->detections[0].azimuth_rad);
+  CHECK(even.found->detections[0].power_W == tapered.found->detections[0].power_W);
+  CHECK(even.range_azimuth.values_W != tapered.range_azimuth.values_W);
+}
+
 TEST_CASE("An array at two heights measures elevation", "[fmcw]") {
   const sensors::Sensor sensor = automotive();
   FmcwSettings options;

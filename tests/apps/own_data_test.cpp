@@ -10,6 +10,7 @@
 #include "session/signal/radar_file.h"
 #include "session/signal/sample_file.h"
 #include "tests/apps/program.h"
+#include "tests/apps/same_tracks.h"
 
 using namespace fanbeam;
 using tests::track;
@@ -51,19 +52,11 @@ TEST_CASE("A street is followed from its scene, its detections and its samples a
   CHECK(tests::json_of(out / "detections/run.json")["kind"] == "detections");
   const std::string tracks = tests::bytes_of(out / "scene/tracks.csv");
   CHECK(tests::bytes_of(out / "detections/tracks.csv") == tracks);
-  // One table of all frames.
-  std::string table;
-  for (int i = 0; i < 12; ++i) {
-    std::istringstream lines(tests::bytes_of(made / fmt::format("detections/{:05}.csv", i)));
-    std::string line;
-    for (bool first = true; std::getline(lines, line); first = false)
-      if (!first || i == 0) table += line + "\n";
-  }
-  const fs::path csv = folder.write("all.csv", table);
-  REQUIRE(track(csv, out / "table", "--radar " + tests::quoted(made / "radar.toml")).exit_code ==
-          0);
-  CHECK(tests::json_of(out / "table/run.json")["confirmed_tracks"] == record["confirmed_tracks"]);
-  CHECK(tests::json_of(out / "table/run.json")["resolution"]["of"] == "the radar");
+  // So are its tables, as far as their digits go.
+  tests::remove_json(made / "detections", 12);
+  REQUIRE(track(made, out / "tables").exit_code == 0);
+  tests::check_same_tracks(out / "detections", out / "tables");
+  CHECK(tests::json_of(out / "tables/run.json")["resolution"]["of"] == "the radar");
   // Samples alone.
   fs::remove_all(made / "detections");
   REQUIRE(track(made, out / "samples", "--frame-period 0.05").exit_code == 0);
@@ -306,6 +299,11 @@ TEST_CASE("Detections that fmcw left tell the radar's speed, and the posts of a 
   REQUIRE(told["confirmed_tracks"] > 40);
   CHECK(told["moving_tracks"].get<int>() >= 6);
   CHECK(told["moving_tracks"].get<int>() <= 12);
+  // Tables do not; fmcw's record beside them does.
+  fs::rename(tracks, folder.path() / "of-json");
+  tests::remove_json(signals / "detections", 12);
+  track("");
+  tests::check_same_tracks(folder.path() / "of-json", tracks);
   const nlohmann::json standing = track("--radar-speed 0");
   CHECK(standing["moving_tracks"].get<int>() > standing["confirmed_tracks"].get<int>() / 2);
 }

@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <sstream>
 
+#include "scenes/highway_reader.h"
+#include "session/signal/tracks/scenario_record.h"
+#include "session/signal/tracks/study.h"
 #include "tests/apps/program.h"
 
 using namespace fanbeam;
@@ -36,6 +39,11 @@ std::vector<Table> tables_of(const std::string& page) {
     for (std::string cell; std::getline(cells, cell, '|');) tables.back().back().push_back(cell);
   }
   return tables;
+}
+
+std::string without_targets() {
+  std::string empty = kScenario;
+  return empty.replace(empty.find("\"targets\": ["), std::string::npos, "\"targets\": []}]}");
 }
 
 // Names kept in every draw of every family, and errors that are what is told: `low` to `high` hold 95 % of the means
@@ -112,11 +120,10 @@ TEST_CASE("Plots of a scenario go with the next run, and no picture that the rec
   CHECK(tests::json_of(out / "run.json")["plots"] == nlohmann::json::array({"X2/errors.png"}));
 }
 
+// The normalised error squared was 0.0 there: better than honest.
 TEST_CASE("A scenario without targets has no figures of them", "[track]") {
   const tests::TemporaryFolder folder;
-  std::string empty = kScenario;
-  empty.replace(empty.find("\"targets\": ["), std::string::npos, "\"targets\": []}]}");
-  folder.write("empty.json", empty);
+  folder.write("empty.json", without_targets());
   const fs::path out = folder.path() / "out";
   const auto result = tests::run_fanbeam("track " + tests::quoted(folder.path() / "empty.json") +
                                          " -o " + tests::quoted(out));
@@ -124,8 +131,21 @@ TEST_CASE("A scenario without targets has no figures of them", "[track]") {
   REQUIRE(result.exit_code == 0);
   CHECK(result.output.find("MOTA -, 0 switches, range -, speed -") != std::string::npos);
   const auto scenario = tests::json_of(out / "run.json")["scenarios"][0];
-  for (const char* figure : {"mota", "range_rmse_m", "range_rate_rmse_mps"})
-    CHECK(scenario[figure].is_null());
+  for (const char* figure : {"mota", "motp_m", "range_rmse_m", "range_rate_rmse_mps", "nees_mean"})
+    CHECK(scenario.at(figure).is_null());
+}
+
+// They were 1 and 0 mm.
+TEST_CASE("A study of a scenario without targets has dashes where figures would be of them",
+          "[track]") {
+  const scenes::HighwayFile file = scenes::parse_highway(without_targets(), "empty.json");
+  const std::vector<Table> tables = tables_of(
+      session::study_tracks(session::chosen_scenarios(file, "", {}), session::TrackSettings())
+          .text);
+  REQUIRE(tables.size() == 1);
+  REQUIRE(tables[0].size() == 2 + 11);
+  for (std::size_t i = 2; i < tables[0].size(); ++i)
+    for (const std::size_t figure : {4U, 7U}) CHECK(tables[0][i][figure] == " - ");
 }
 
 TEST_CASE("track refuses what it cannot use", "[track]") {

@@ -332,6 +332,24 @@ TEST_CASE("A waveform has to fit the frames of the scenarios that name it, and n
       core::ErrorClass::range, "/scenarios/0/waveforms/0");
 }
 
+TEST_CASE("A waveform that a scenario names and the file has not is told with those it has",
+          "[highway]") {
+  const std::string named = replaced(file_with(kStraight), "\"duration_s\"",
+                                     R"("waveforms": ["two-stages"], "duration_s")");
+  const auto refused = [&](const std::string& waveforms) {
+    const core::InputError error = refusal(
+        replaced(named, "\"scenarios\"", "\"waveforms\": {" + waveforms + "}, \"scenarios\""));
+    REQUIRE(error.problems().size() == 1);
+    CHECK(error.has(core::ErrorClass::ref));
+    CHECK(error.problems()[0].field == "/scenarios/0/waveforms/0");
+    return error.problems()[0].expected;
+  };
+  CHECK(refused(R"("slow": {"type": "triangle", "ramp_s": 0.002},
+                   "two-stage": {"type": "two-stage", "coarse": {}, "fine": {}})") ==
+        "the name of one of /waveforms; perhaps two-stage of slow, two-stage");
+  CHECK(refused("") == "the name of one of /waveforms; there are none");
+}
+
 TEST_CASE("What another kind of waveform or motion has is refused, not passed over", "[highway]") {
   const auto with_waveforms = [](const std::string& text) {
     return replaced(file_with(kStraight), "\"scenarios\"",

@@ -17,12 +17,14 @@ class DetectionSource : public MeasuredSource {
       : asked_(settings) {
     core::ProblemList problems;
     if (radar_file) read_radar(*radar_file, problems);
-    const std::size_t before = problems.all().size();
-    frames_ = read_detections(path, problems);
-    if (frames_.empty() && problems.all().size() == before)
-      problems.error(core::ErrorClass::range, core::Place{path.string()}, "detections", "none",
-                     "at least one frame");
+    core::ProblemList found;
+    frames_ = read_detections(path, found);
+    if (frames_.empty() && !found.has_errors())
+      found.error(core::ErrorClass::range, core::Place{path.string()}, "detections", "none",
+                  "at least one frame");
+    problems.append(found.all());
     problems.throw_if_errors();
+    warnings = problems.all();
     if (radar_) resolution = resolution_of(*radar_);
     name = core::safe_word(fs::absolute(path).lexically_normal().stem().string());
     kind = "detections";

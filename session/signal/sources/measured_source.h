@@ -5,8 +5,8 @@
 //   samples       (session/signal/sample_file.h), with the radar that they are of
 //
 // Times of samples: where they are the beats of `fanbeam fmcw`, as the run.json in the folder above them
-// says, and so is the radar's velocity; else a period apart. A speed alone, told by an option or a file, is one
-// along the antenna's axis.
+// says, and so is the radar's velocity, also of tables of detections; else a period apart, and 0. A speed alone,
+// told by an option or a file, is one along the antenna's axis.
 #pragma once
 
 #include <filesystem>

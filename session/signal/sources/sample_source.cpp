@@ -1,12 +1,11 @@
 #include <algorithm>
-#include <map>
 #include <string_view>
 #include <system_error>
 
-#include "core/json_node.h"
 #include "core/text.h"
 #include "session/signal/chain.h"
 #include "session/signal/radar_file.h"
+#include "session/signal/recorded_moments.h"
 #include "session/signal/sample_file.h"
 #include "session/signal/sources/measured_source.h"
 
@@ -14,56 +13,6 @@ namespace fanbeam::session {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Recorded {
-  double time_s = 0.0;
-  RadarVelocity_mps radar_velocity_mps{};
-};
-
-// What the run.json of a folder that `fanbeam fmcw` wrote says of its files, by name relative to it.
-std::map<std::string, Recorded> moments_in(const core::JsonNode& record) {
-  constexpr core::NumberRange kTimes_s{-1e12, 1e12};
-  std::map<std::string, Recorded> known;
-  const core::JsonNode frames = record.member("frames");
-  for (std::size_t i = 0; i < frames.elements(); ++i) {
-    const core::JsonNode frame = frames.element(i);
-    const auto time_s = frame.member("time_s").number(kTimes_s);
-    if (!time_s) continue;
-    const RadarVelocity_mps velocity_mps = radar_velocity_in(frame).value_or(RadarVelocity_mps{});
-    for (const std::string& name : frame.member("files").texts(1000))
-      known[name] = {*time_s, velocity_mps};
-  }
-  return known;
-}
-
-// When each file was made, by the record one folder above them; none, and why in `warnings`, where that is a
-// record of samples which does not say it of all in the order of time.
-std::vector<Recorded> recorded_moments(const std::vector<fs::path>& files,
-                                       core::ProblemList& warnings) {
-  const fs::path own = fs::absolute(files.front()).lexically_normal().parent_path();
-  const fs::path record = own.parent_path() / "run.json";
-  std::error_code status;
-  if (!fs::is_regular_file(record, status)) return {};
-  const auto refused = [&](const std::string& why) {
-    warnings.warning("TIMES", {record.string()}, "frames", why,
-                     "--frame-period and --radar-speed count, or what they are without it");
-    return std::vector<Recorded>();
-  };
-  constexpr core::JsonLimits kLimits{64, 20'000'000};
-  core::ProblemList problems;
-  const auto file = core::read_json_file(record, 256ULL << 20U, kLimits, problems);
-  if (!file) return refused("cannot be read: " + problems.all().front().value);
-  const auto known = moments_in(core::JsonNode(*file, problems));
-  std::vector<Recorded> moments;
-  if (known.empty()) return moments;  // another program's
-  for (const fs::path& one : files) {
-    const auto found = known.find((own.filename() / one.filename()).generic_string());
-    if (found == known.end() || !(moments.empty() || found->second.time_s > moments.back().time_s))
-      return refused("no later time of " + one.filename().string());
-    moments.push_back(found->second);
-  }
-  return moments;
-}
 
 // A later stage of a waveform is no frame of its own: "00000-stage1.npy" belongs to "00000.npy".
 bool is_later_stage(const fs::path& file) {
@@ -161,13 +110,14 @@ class SampleSource : public MeasuredSource {
     core::ProblemList told;
     const bool asked_all = asked_.frame_period_s && asked_.radar_speed_mps;
     if (!asked_all && files_.frames() == static_cast<int>(files.size()))
-      moments_ = recorded_moments(files, told);
+      moments_ = recorded_moments(
+          files, "--frame-period and --radar-speed count, or what they are without it", told);
     warnings = told.all();
     if (asked_.frame_period_s) {
       frame_s = *asked_.frame_period_s;
     } else if (moments_.size() > 1) {
       std::vector<double> times_s;
-      for (const Recorded& one : moments_) times_s.push_back(one.time_s);
+      for (const RecordedMoment& one : moments_) times_s.push_back(one.time_s);
       frame_s = median_step_s(times_s).value_or(frame_s);
     }
     radar_velocity_mps = velocity_at(0);
@@ -204,7 +154,7 @@ class SampleSource : public MeasuredSource {
   FmcwSettings settings_;
   FmcwRadar radar_;
   SampleFiles files_;
-  std::vector<Recorded> moments_;  // of each frame, where they are known
+  std::vector<RecordedMoment> moments_;  // of each frame, where they are known
 };
 
 }  // namespace

@@ -1,8 +1,8 @@
 // What the input of a tracker is, by its path:
 //
 //   a scene       its frames at signal level
-//   a folder      of fanbeam fmcw: detections/*.json, or else beat/*.npy with its radar.toml; or of files
-//                 like those
+//   a folder      of fanbeam fmcw: detections/*.json, or else *.csv there, or else beat/*.npy with its
+//                 radar.toml; or of files like those
 //   .csv, .json   detections (session/signal/detection_file.h), or a road scenario
 //   .npy          samples (session/signal/sample_file.h), with the file of their radar
 #pragma once

@@ -150,7 +150,8 @@ std::string scenario_tracks_json(const core::HighwayScenario& scenario,
                {"gospa_mean_m", score.gospa_m.mean()},
                {"ospa_mean_m", score.ospa_m.mean()},
                {"mota", figure_or_null(score.mot.instances(), score.mot.mota())}};
-  if (const auto motp_m = score.mot.motp_m()) json["motp_m"] = *motp_m;
+  const auto motp_m = score.mot.motp_m();
+  json["motp_m"] = motp_m ? Json(*motp_m) : Json();
   json["missed"] = score.mot.missed();
   json["false_tracks"] = score.mot.false_tracks();
   json["switches"] = score.mot.switches();
@@ -158,7 +159,7 @@ std::string scenario_tracks_json(const core::HighwayScenario& scenario,
   json["range_rmse_m"] = figure_or_null(range_m.count(), range_m.rms());
   json["range_error_largest_m"] = figure_or_null(range_m.count(), range_m.largest());
   json["range_rate_rmse_mps"] = figure_or_null(speed_mps.count(), speed_mps.rms());
-  json["nees_mean"] = score.nees.mean();
+  json["nees_mean"] = figure_or_null(score.nees.count(), score.nees.mean());
   json["skipped_updates"] = tracks.skipped_updates;
   json["left_out_of_joint"] = tracks.left_out;
   json["beyond_samples"] = tracks.beyond;

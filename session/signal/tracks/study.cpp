@@ -19,6 +19,10 @@ bool has_points(const Plot& plot) {
 
 }  // namespace
 
+std::string figure_cell(int count, double value, int decimals) {
+  return count > 0 ? fmt::format("{:.{}f}", value, decimals) : std::string("-");
+}
+
 void track_study(const std::vector<StudyScenario>& scenarios, const core::HighwayRadar& radar,
                  const TrackSettings& settings, const std::filesystem::path& folder,
                  const std::function<void(const char* part)>& told) {

@@ -26,6 +26,9 @@ struct StudyPart {
   std::vector<std::pair<std::string, Plot>> plots;
 };
 
+// Of a table; a dash where a figure is of nothing.
+std::string figure_cell(int count, double value, int decimals);
+
 // One car of 10 m2 at 100 m that closes at 100 km/h, measured from samples of 1 to 32 of the radar's triangles
 // (triangle_ramp_s, triangle_rate_Hz): root mean square errors of 100 draws beside their bound, those that are
 // wrong by over 1 m left out and counted.

@@ -56,8 +56,9 @@ StudyPart study_families(const core::HighwayRadar& radar, const TrackSettings& s
           return sampled ? sampled->measure(scenario, settings.seed, run, frame)
                          : simulated_frame(scenario, radar, simulation, settings.seed, run, frame);
         });
-    part.text += fmt::format("| {} | {:.3f} | {:.3f} | {} | {:.2f} |\n", family.name, score.mota(),
-                             score.worst_mota(), score.without_switch(), score.nees.mean());
+    part.text += fmt::format("| {} | {:.3f} | {:.3f} | {} | {} |\n", family.name, score.mota(),
+                             score.worst_mota(), score.without_switch(),
+                             figure_cell(score.nees.count(), score.nees.mean(), 2));
     std::vector<double> motas, errors;
     for (const tracking::FamilyRun& run : score.runs) {
       motas.push_back(run.mota);

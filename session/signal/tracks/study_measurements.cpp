@@ -95,8 +95,7 @@ struct Errors {
 
 // In thousandths; a dash, and no point of a plot, where no right peak is left.
 std::string rms_cell(const tracking::MeanSquare& errors, int decimals) {
-  return errors.count() > 0 ? fmt::format("{:.{}f}", 1e3 * errors.rms(), decimals)
-                            : std::string("-");
+  return figure_cell(errors.count(), 1e3 * errors.rms(), decimals);
 }
 
 double rms_point(const tracking::MeanSquare& errors) {

@@ -74,7 +74,8 @@ Rates rates_of(const core::HighwayRadar& radar, Scheme scheme, int count, std::u
 }
 
 struct Tracked {
-  double gospa_m = 0.0, mota = 0.0, false_per_scan = 0.0, range_m = 0.0, ms = 0.0;
+  double gospa_m = 0.0, false_per_scan = 0.0, ms = 0.0;
+  tracking::MeanSquare mota, range_m;  // of the runs that have one
   int switches = 0;
 };
 
@@ -95,9 +96,9 @@ Tracked tracked(const StudyScenario& one, const tracking::TrackerSettings& setti
         });
     const double frames = score.gospa_m.count();
     result.gospa_m += score.gospa_m.mean() / runs;
-    result.mota += score.mot.mota() / runs;
+    if (score.mot.instances() > 0) result.mota.add(score.mot.mota());
     result.false_per_scan += score.mot.false_tracks() / frames / runs;
-    result.range_m += score.range_m.rms() / runs;
+    if (score.range_m.count() > 0) result.range_m.add(score.range_m.rms());
     result.ms += 1e3 * seconds / frames / runs;
     result.switches += score.mot.switches();
   }
@@ -106,9 +107,11 @@ Tracked tracked(const StudyScenario& one, const tracking::TrackerSettings& setti
 
 std::string row(const std::string& scenario, const std::string& waveform,
                 const std::string& association, const Tracked& one) {
-  return fmt::format("| {} | {} | {} | {:.3f} | {:.4f} | {:.3f} | {} | {:.2f} | {:.3f} |\n",
-                     scenario, waveform, association, one.gospa_m, one.mota, one.false_per_scan,
-                     one.switches, 1e3 * one.range_m, one.ms);
+  return fmt::format("| {} | {} | {} | {:.3f} | {} | {:.3f} | {} | {} | {:.3f} |\n", scenario,
+                     waveform, association, one.gospa_m,
+                     figure_cell(one.mota.count(), one.mota.mean(), 4), one.false_per_scan,
+                     one.switches, figure_cell(one.range_m.count(), 1e3 * one.range_m.mean(), 2),
+                     one.ms);
 }
 
 // A waveform from frequencies, with both associations.
