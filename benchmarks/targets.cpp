@@ -65,7 +65,8 @@ constexpr Target kThreadGain{1.8, 1.8, true};
 constexpr double kMostBuild_s = 15.0;
 constexpr double kMostMemory_bytes = 1e9;
 constexpr Target kWritten_Hz{16.0, 16.0, true}, kWrittenV3_Hz{12.0, 12.0, true};
-constexpr ErrorTarget kDefaults{0.5, 0.8};  // of rain-94ghz
+// At the default sampling, where 16 frames/s on disk are asked for: as much as at 16 Hz.
+constexpr ErrorTarget kCityDefaults{1.0, 1.6}, kRainDefaults{0.5, 0.8};
 constexpr Target kAgreement_grey{0.5, 0.5}, kAgreementNoiseFree_grey{0.8, 0.8};
 constexpr Target kAgreement_dB{0.02, 0.02};
 constexpr Target kScaling{3.0, 3.0};
@@ -205,21 +206,34 @@ std::string sequence_row(const std::string& scene, const SequenceFigures& sequen
   return row.markdown();
 }
 
-std::string defaults_rows(const DefaultFigures& figures) {
+std::string defaults_rows(const std::string& scene, const std::vector<DefaultError>& views,
+                          const ErrorTarget& target) {
   std::string out;
   for (const auto& [scope, picture] :
        {std::pair{"B-scope", &FrameError::bscope}, std::pair{"C-scope", &FrameError::cscope}}) {
-    TargetRow row(fmt::format("{}, default sampling, {} error, grey RMS", figures.scene, scope),
-                  target_text(kDefaults));
-    for (const DefaultFigures::At& view : figures.views) {
+    TargetRow row(fmt::format("{}, default sampling, {} error, grey RMS", scene, scope),
+                  target_text(target));
+    for (const DefaultError& view : views) {
       const PictureError& error = view.error.*picture;
       row.add(fmt::format("{} at {:.0f} m", pair_text(error.with_noise.rms, error.noise_free.rms),
                           view.distance_m));
-      row.judge(error.with_noise.rms, {kDefaults.with_noise, kDefaults.with_noise});
-      row.judge(error.noise_free.rms, {kDefaults.noise_free, kDefaults.noise_free});
+      row.judge(error.with_noise.rms, {target.with_noise, target.with_noise});
+      row.judge(error.noise_free.rms, {target.noise_free, target.noise_free});
     }
     out += row.markdown();
   }
+  return out;
+}
+
+std::string city_defaults_rows(const SceneFigures& scene) {
+  std::vector<DefaultError> views;
+  for (const ViewFigures& view : scene.views)
+    views.push_back({view.view.distance_m, view.at_default});
+  return defaults_rows(scene.scene->name, views, kCityDefaults);
+}
+
+std::string rain_rows(const DefaultFigures& figures) {
+  std::string out = defaults_rows(figures.scene, figures.views, kRainDefaults);
   if (figures.sequence) out += sequence_row(figures.scene, *figures.sequence);
   return out;
 }
@@ -351,9 +365,10 @@ std::string targets_markdown(const Report& report) {
     if (scene.plan) out += plan_rows(*scene.plan);
     for (const SequenceFigures& sequence : scene.sequences)
       out += sequence_row(scene.scene->name, sequence);
+    if (scene.scene->name == kCityScene) out += city_defaults_rows(scene);
   }
   for (const AgreementFigures& line : report.agreement) out += agreement_rows(line.scene, {line});
-  if (report.rain) out += defaults_rows(*report.rain);
+  if (report.rain) out += rain_rows(*report.rain);
   if (!report.layers.empty()) out += layers_row(report.layers);
   if (report.campaigns) out += campaign_rows(*report.campaigns);
   if (!report.bounds.empty()) out += bounds_row(report.bounds);
