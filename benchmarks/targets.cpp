@@ -138,13 +138,13 @@ TargetRows plan_rows(const PlanFigures& plan) {
 }
 
 TargetRow estimates_row(const std::vector<EstimateCase>& cases) {
+  const EstimateTally tally = tally_of(cases);
   TargetRow row(
-      fmt::format("all scenes, share of {} pictures whose error is within a factor of 1.5 of what "
-                  "they state",
-                  cases.size()),
+      "all scenes, share of pictures whose error is within a factor of 1.5 of what they state, of "
+      "those with more than 0.05 grey in one of the two",
       kNotKnown, fmt::format("at least {:.2f}", kEstimatesWithin.must));
-  row.add(fmt::format("{:.2f}", share_within(cases)));
-  row.judge(share_within(cases), kEstimatesWithin);
+  row.add(fmt::format("{:.2f}: {}", tally.share(), tally.text()));
+  row.judge(tally.share(), kEstimatesWithin);
   return row;
 }
 
