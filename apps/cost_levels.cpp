@@ -6,6 +6,7 @@
 
 #include "core/turns.h"
 #include "measure/clock.h"
+#include "measure/frame_clock.h"
 #include "renderer/accuracy/swept_picture.h"
 #include "renderer/frame_renderer.h"
 #include "renderer/stages/range_response.h"
@@ -19,14 +20,23 @@ namespace {
 constexpr int kThinParts = 8;
 constexpr renderer::Products kBscopeAlone = {.bscope = true, .cscope = false};
 
-// Converged powers behind the sweep, noise in them.
-std::vector<double> reference_W(const measure::CostBench& bench, const sensors::Sensor& sensor) {
-  const auto thin = bench.with_sensor(renderer::thin_cells(sensor, kThinParts));
+// The whole picture but for its range response, which is given to powers here: shipped sensors show
+// ideal cells, and a sweep has none.
+renderer::Effects whole_picture(const measure::CostBench& bench) {
+  core::EffectPlan plan = bench.scene.plan;
+  for (core::EffectDecision& decision : plan.decisions)
+    if (decision.effect == core::EffectId::range_response) decision.on = false;
+  return measure::without_draws(renderer::effects_of(plan, 0));
+}
+
+// Converged powers behind the sweep. `thin` has its range cells in kThinParts.
+std::vector<double> reference_W(const measure::CostBench& bench, const scenes::Scene& thin,
+                                const sensors::Sensor& sensor, const renderer::Effects& effects) {
   renderer::Sampling sampling = bench.effort.reference(1);
   sampling.rays_per_cell /= kThinParts;
-  const renderer::FrameRenderer frames(thin->world, sampling, kBscopeAlone, {});
+  const renderer::FrameRenderer frames(thin.world, sampling, kBscopeAlone, effects);
   return renderer::swept_power_W(
-      sensor, frames.render(thin->frame_pose(bench.frames.front())).bscope_W, kThinParts);
+      sensor, frames.render(thin.frame_pose(bench.frames.front())).bscope_W, kThinParts);
 }
 
 class GreyDistance {
@@ -60,7 +70,7 @@ void measure_pictures(const measure::CostBench& bench, const sensors::Sensor& se
   std::vector<renderer::FrameRenderer> renderers;
   for (const double fineness : bench.effort.rays)
     renderers.emplace_back(bench.scene.world, measure::sampling_of(measure::Way::rays, fineness),
-                           kBscopeAlone, renderer::Effects{});
+                           kBscopeAlone, whole_picture(bench));
   const auto render = [&](const renderer::FrameRenderer& frames) {
     std::vector<double> power_W = frames.render(pose).bscope_W;
     response.apply(power_W);
@@ -113,7 +123,7 @@ double levels_s(const measure::CostBench& bench) {
   double rays_ms = 0.0;
   for (const double fineness : bench.effort.rays)
     rays_ms += bench.pace.step_ms(measure::Way::rays, fineness);
-  return bench.pace.build_s + bench.pace.reference_s(bench.effort) +
+  return bench.pace.build_s + 2.0 * bench.pace.reference_s(bench.effort) +
          (bench.effort.repetitions + 6.0) * rays_ms / 1000.0 +
          bench.effort.looks.back() * kLookOverFrame * bench.pace.frame_ms / 1000.0;
 }
@@ -121,10 +131,13 @@ double levels_s(const measure::CostBench& bench) {
 std::vector<measure::LevelStep> measure_levels(const measure::CostBench& bench) {
   bench.begin(fmt::format("frame {}, signal level", bench.frames.front()), levels_s(bench));
   const sensors::Sensor sensor = session::with_sweep_window(bench.scene.world.sensor);
-  const GreyDistance distance(sensor, reference_W(bench, sensor));
+  const auto thin = bench.with_sensor(renderer::thin_cells(sensor, kThinParts));
+  const auto distance = [&](const renderer::Effects& effects) {
+    return GreyDistance(sensor, reference_W(bench, *thin, sensor, effects));
+  };
   std::vector<measure::LevelStep> steps;
-  measure_pictures(bench, sensor, distance, steps);
-  measure_signals(bench, distance, steps);
+  measure_pictures(bench, sensor, distance(whole_picture(bench)), steps);
+  measure_signals(bench, distance(renderer::Effects{}), steps);
   return steps;
 }
 

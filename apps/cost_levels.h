@@ -1,12 +1,14 @@
-// The picture-level path against the signal-level path: error over time of the same B-scope.
+// The picture-level path against the signal-level path: error over time of a frame's B-scope.
 //
-// Both are held against the converged powers in thin range cells with the sweep's exact range
-// response (renderer/accuracy/swept_picture.h), the receiver's mean noise in all of them.
+// Each is held against the converged powers of its own effects in thin range cells with the sweep's
+// exact range response (renderer/accuracy/swept_picture.h), the receiver's mean noise in them all.
 //   picture   rays at several samplings, and the renderer's range response
 //   signal    beat signals (session/signal/signal_bscope.h): the mean of so many looks, each with its
 //             speckle and its noise
-// Surfaces and point targets only: what the signal level lacks (double bounce, echo of rain,
-// multipath) is off in both. The aircraft stands: no Doppler.
+// The picture is the whole one, every effect of the plan in it. The signal level is of surfaces and
+// point targets alone, and so is what it is held against: it has neither double bounce nor echo of
+// rain, and multipath has a phase there, which expected powers have not. The aircraft stands: no
+// Doppler.
 #pragma once
 
 #include <vector>

@@ -198,11 +198,12 @@ std::string scaling_markdown(const SceneFigures& scene) {
 }  // namespace
 
 std::string markdown(const Report& report) {
-  const std::string targets = targets_markdown(report);
+  const TargetRows targets = target_rows(report);
   std::string out = kHead;
   if (report.quick) out += kQuickHead;
   out += summary_markdown(report, targets) + plots_markdown(report) + kWords +
-         machine_markdown(report) + targets + scenes_markdown(report) + agreement_markdown(report);
+         machine_markdown(report) + targets_markdown(targets, report.skipped) +
+         scenes_markdown(report) + agreement_markdown(report);
   for (const SceneFigures& scene : report.scenes) out += scaling_markdown(scene);
   for (const SceneFigures& scene : report.scenes)
     for (const ViewFigures& figures : scene.views) out += view_markdown(figures, report.threads);

@@ -13,6 +13,7 @@
 #include "benchmarks/measure.h"
 #include "benchmarks/plan_cost.h"
 #include "benchmarks/scaling.h"
+#include "benchmarks/verdict.h"
 #include "benchmarks/written_sequence.h"
 
 namespace fanbeam::benchmarks {
@@ -43,14 +44,16 @@ struct Report {
 
 std::string markdown(const Report& report);
 
-// The section with the design's targets beside the figures.
-std::string targets_markdown(const Report& report);
-// Its row of layers.
-std::string layers_row(const std::vector<LayerCost>& costs);
+// The design's targets beside the figures.
+TargetRows target_rows(const Report& report);
+// That of layers.
+TargetRow layers_row(const std::vector<LayerCost>& costs);
+// Their section; `skipped`: as in Report.
+std::string targets_markdown(const TargetRows& rows, const std::vector<std::string>& skipped);
 
-// The first screen: what sixteen and ninety pictures a second cost, and what of `targets`, as
-// targets_markdown gives it, was missed.
-std::string summary_markdown(const Report& report, const std::string& targets);
+// The first screen: what sixteen and ninety pictures a second cost, and which of `targets` were
+// missed, and why.
+std::string summary_markdown(const Report& report, const TargetRows& targets);
 
 // Below the table of agreement: why cells of slices are apart from the reference.
 std::string off_cells_markdown(const std::vector<AgreementFigures>& lines);

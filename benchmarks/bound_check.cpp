@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "benchmarks/bench_scene.h"
-#include "benchmarks/verdict.h"
+#include "benchmarks/reasons.h"
 #include "benchmarks/view_clock.h"
 #include "measure/effect_cost.h"
 #include "measure/effect_prices.h"
@@ -84,10 +84,10 @@ std::string bounds_markdown(const std::vector<BoundCase>& cases) {
   return text + "\n";
 }
 
-std::string bounds_row(const std::vector<BoundCase>& cases) {
+TargetRow bounds_row(const std::vector<BoundCase>& cases) {
   TargetRow row(
       "all scenes, effects that run and change less than their share, bound over influence, dB",
-      fmt::format("{:.0f}", kApart_dB.must));
+      kNotKnown, fmt::format("{:.0f}", kApart_dB.must));
   const auto unseen = std::ranges::count_if(cases, [](const auto& each) { return !each.shows(); });
   row.add(fmt::format("{} of {} effects", unseen, cases.size()));
   for (const BoundCase& each : cases) {
@@ -95,7 +95,7 @@ std::string bounds_row(const std::vector<BoundCase>& cases) {
     row.add(fmt::format("{:.1f} {} in {}", each.apart_dB(), each.effect, each.scene));
     row.judge(each.apart_dB(), kApart_dB);
   }
-  return row.markdown();
+  return row;
 }
 
 }  // namespace fanbeam::benchmarks

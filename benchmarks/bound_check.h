@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "benchmarks/report_effort.h"
+#include "benchmarks/verdict.h"
 
 namespace fanbeam::benchmarks {
 
@@ -28,6 +29,6 @@ struct BoundCase {
 std::vector<BoundCase> check_bounds(const Effort& effort);
 
 std::string bounds_markdown(const std::vector<BoundCase>& cases);
-std::string bounds_row(const std::vector<BoundCase>& cases);
+TargetRow bounds_row(const std::vector<BoundCase>& cases);
 
 }  // namespace fanbeam::benchmarks

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "benchmarks/process_memory.h"
+#include "benchmarks/reasons.h"
 #include "benchmarks/scratch_folder.h"
-#include "benchmarks/verdict.h"
 #include "core/files.h"
 #include "measure/clock.h"
 
@@ -274,25 +274,27 @@ std::string campaigns_markdown(const CampaignFigures& f) {
       f.render_s, f.campaign_s);
 }
 
-std::string campaign_rows(const CampaignFigures& f) {
-  TargetRow workers("campaign, rate of two workers over one of two threads", "at least 0.97");
+TargetRows campaign_rows(const CampaignFigures& f) {
+  TargetRow workers("campaign, rate of two workers over one of two threads", kNotKnown,
+                    "at least 0.97");
   workers.add(fmt::format("{:.2f} (one worker: {:.2f} from one thread to two)",
                           f.workers_over_threads(), f.one_thread_s / f.two_threads_s));
   workers.judge(f.workers_over_threads(), {0.97, 0.97, true});
-  TargetRow overhead("campaign of one run, time beyond that of fanbeam render, per cent", "3");
+  TargetRow overhead("campaign of one run, time beyond that of fanbeam render, per cent", kNotKnown,
+                     "3");
   overhead.add(fmt::format("{:.1f}", 100.0 * f.overhead()));
   overhead.judge(100.0 * f.overhead(), {3.0, 3.0});
-  TargetRow plan("campaign, plan of a million runs with 15 parameters, s", "5");
+  TargetRow plan("campaign, plan of a million runs with 15 parameters, s", kNotKnown, "5");
   plan.add(fmt::format("{:.1f}", f.plan_s));
   plan.judge(f.plan_s, {5.0, 5.0});
-  TargetRow memory("the same, MB", "200");
+  TargetRow memory("the same, MB", kNotKnown, "200");
   memory.add(fmt::format("{:.0f}", f.plan_bytes / 1e6));
   memory.judge(f.plan_bytes / 1e6, {200.0, 200.0});
-  TargetRow city(fmt::format("scene of {} houses of CityJSON, building it, s", f.houses), "5");
+  TargetRow city(fmt::format("scene of {} houses of CityJSON, building it, s", f.houses), kNotKnown,
+                 "5");
   city.add(fmt::format("{:.1f}", f.city_s));
   city.judge(f.city_s, {5.0, 5.0});
-  return workers.markdown() + overhead.markdown() + plan.markdown() + memory.markdown() +
-         city.markdown();
+  return {workers, overhead, plan, memory, city};
 }
 
 }  // namespace fanbeam::benchmarks

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "benchmarks/report_effort.h"
+#include "benchmarks/verdict.h"
 
 namespace fanbeam::benchmarks {
 
@@ -32,6 +33,6 @@ std::optional<CampaignFigures> measure_campaigns(const Effort& effort);
 
 std::string campaigns_markdown(const CampaignFigures& figures);
 // Rows of the table of targets.
-std::string campaign_rows(const CampaignFigures& figures);
+TargetRows campaign_rows(const CampaignFigures& figures);
 
 }  // namespace fanbeam::benchmarks

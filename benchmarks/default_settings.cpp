@@ -4,6 +4,11 @@
 
 namespace fanbeam::benchmarks {
 
+FrameError default_error(const View& view, const GreyReference& reference) {
+  const renderer::CasterKind caster = view.scene->scene->caster.chosen;
+  return clock_of(view, renderer::default_sampling(caster)).error(reference);
+}
+
 std::optional<DefaultFigures> measure_defaults(const std::string& scene, const Effort& effort,
                                                int threads) {
   const auto bench = load(scene);
@@ -15,10 +20,8 @@ std::optional<DefaultFigures> measure_defaults(const std::string& scene, const E
       figures.sequence = measure_sequence(view, {renderer::CasterWish::automatic},
                                           effort.sequence_frames, threads);
     fmt::print(stderr, "{} at {:.0f} m: default sampling\n", scene, view.distance_m);
-    const renderer::CasterKind caster = bench->scene->caster.chosen;
-    const auto sampling = renderer::default_sampling(caster);
     const GreyReference reference(view.sensor(), clock_of(view, effort.reference(1)).power());
-    figures.views.push_back({view.distance_m, clock_of(view, sampling).error(reference)});
+    figures.views.push_back({view.distance_m, default_error(view, reference)});
   }
   return figures;
 }

@@ -1,4 +1,4 @@
-// What `fanbeam render` does by itself in a scene that has no ladder of its own.
+// What `fanbeam render` does by itself in a scene.
 #pragma once
 
 #include <optional>
@@ -11,17 +11,21 @@
 
 namespace fanbeam::benchmarks {
 
+// One view at the default sampling of the scene's caster, against a reference.
+struct DefaultError {
+  double distance_m = 0.0;
+  FrameError error;
+};
+
 struct DefaultFigures {
   std::string scene;
   std::optional<SequenceFigures> sequence;
-  struct At {
-    double distance_m = 0.0;
-    FrameError error;  // at the default sampling, against a reference
-  };
-  std::vector<At> views;
+  std::vector<DefaultError> views;
 };
 
-// Nothing where the scene's data are not there.
+FrameError default_error(const View& view, const GreyReference& reference);
+
+// Of a scene that has no ladder of its own. Nothing where its data are not there.
 std::optional<DefaultFigures> measure_defaults(const std::string& scene, const Effort& effort,
                                                int threads);
 

@@ -89,11 +89,24 @@ std::vector<EstimateCase> check_estimates(const Effort& effort) {
   return cases;
 }
 
-double share_within(const std::vector<EstimateCase>& cases) {
-  if (cases.empty()) return 0.0;
-  const auto within = std::count_if(cases.begin(), cases.end(),
-                                    [](const EstimateCase& each) { return each.within(); });
-  return static_cast<double>(within) / static_cast<double>(cases.size());
+EstimateTally tally_of(const std::vector<EstimateCase>& cases) {
+  EstimateTally tally;
+  for (const EstimateCase& each : cases) {
+    if (each.invisible()) {
+      ++tally.unseen;
+      continue;
+    }
+    ++tally.seen;
+    if (each.within()) ++tally.within;
+  }
+  return tally;
+}
+
+std::string EstimateTally::text() const {
+  return fmt::format(
+      "{} of {} within a factor of 1.5; {} more are below 0.05 grey in both, where nobody sees an "
+      "error",
+      within, seen, unseen);
 }
 
 std::string estimates_markdown(const std::vector<EstimateCase>& cases) {
@@ -105,7 +118,7 @@ std::string estimates_markdown(const std::vector<EstimateCase>& cases) {
       "plan of the scene has. The true error is that against a converged picture less, in "
       "squares,\n"
       "what the halves of that picture say of its own. The last column is the true error over the\n"
-      "estimate; an error below 0.05 grey in both is seen by nobody and counts as right.\n\n"
+      "estimate; an error below 0.05 grey in both is seen by nobody and not counted.\n\n"
       "| scene | frame | sampling | picture | estimated | true | ratio |\n"
       "| --- | --- | --- | --- | --- | --- | --- |\n";
   for (const EstimateCase& each : cases)
@@ -114,8 +127,7 @@ std::string estimates_markdown(const std::vector<EstimateCase>& cases) {
         each.scope, each.estimate_grey, each.true_grey,
         each.invisible() ? "-" : fmt::format("{:.2f}", each.true_grey / each.estimate_grey),
         each.within() ? "" : ", **missed**");
-  return text + fmt::format("\n{:.0f} % of {} within a factor of 1.5.\n\n",
-                            100.0 * share_within(cases), cases.size());
+  return text + "\n" + tally_of(cases).text() + ".\n\n";
 }
 
 }  // namespace fanbeam::benchmarks

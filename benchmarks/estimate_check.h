@@ -32,7 +32,15 @@ std::vector<EstimateCase> check_estimates(const Effort& effort);
 
 std::string estimates_markdown(const std::vector<EstimateCase>& cases);
 
-// Share of the cases within the factor.
-double share_within(const std::vector<EstimateCase>& cases);
+// Those that somebody can see, those of them within the factor, and those that nobody sees, which
+// are no evidence for estimates.
+struct EstimateTally {
+  int seen = 0, within = 0, unseen = 0;
+
+  double share() const { return seen > 0 ? static_cast<double>(within) / seen : 1.0; }
+  // "115 of 117 ...; the other 59 ..."
+  std::string text() const;
+};
+EstimateTally tally_of(const std::vector<EstimateCase>& cases);
 
 }  // namespace fanbeam::benchmarks

@@ -182,11 +182,11 @@ void run(const Options& options) {
   }
   if (options.campaigns_alone) {
     if (const auto figures = measure_campaigns(effort))
-      fmt::print("{}{}", campaigns_markdown(*figures), campaign_rows(*figures));
+      fmt::print("{}{}", campaigns_markdown(*figures), markdown_of(campaign_rows(*figures)));
     return;
   }
   if (options.layers_alone) {
-    fmt::print("{}", layers_row(measure_layers(effort)));
+    fmt::print("{}", layers_row(measure_layers(effort)).markdown());
     return;
   }
   std::vector<BenchScene> scenes;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "benchmarks/default_settings.h"
 #include "core/median.h"
 #include "core/parallel.h"
 #include "renderer/accuracy/sampling_ladder.h"
@@ -50,6 +51,7 @@ class ViewBench {
     figures_.reference_rays = frame.rays;
     reference_power_ = power_of(std::move(frame));
     reference_.emplace(view.sensor(), reference_power_);
+    figures_.at_default = default_error(view, *reference_);
   }
 
   void measure_reference_error();

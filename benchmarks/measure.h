@@ -48,6 +48,7 @@ struct ViewFigures {
   // A second reference with another seed against the first.
   std::optional<FrameError> reference_error;
   std::optional<AgreementFigures> reference_agreement;
+  FrameError at_default;              // as `fanbeam render` has it by itself
   CasterFigures rays, slices;         // of the whole picture
   CasterFigures surfaces;             // slices, without effects: at 16 Hz and at 90 Hz alone
   AgreementFigures slices_agreement;  // converged ones with the reference

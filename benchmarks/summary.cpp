@@ -1,7 +1,5 @@
 #include <fmt/core.h>
 
-#include <sstream>
-
 #include "benchmarks/bench_report.h"
 
 namespace fanbeam::benchmarks {
@@ -41,22 +39,19 @@ std::string sequences(const Report& report) {
   return out;
 }
 
-// The rows of the table of targets that were missed, without their verdicts.
-std::string missed(const std::string& targets) {
-  constexpr std::string_view kVerdict = " missed |";
-  std::istringstream lines(targets);
+std::string missed(const TargetRows& targets) {
   std::string rows;
-  for (std::string line; std::getline(lines, line);)
-    if (line.ends_with(kVerdict)) rows += line.substr(0, line.size() - kVerdict.size()) + "\n";
+  for (const TargetRow& row : targets)
+    if (row.missed()) rows += row.missed_markdown();
   if (rows.empty()) return "Every target is met.\n";
-  return "Missed, of all targets below:\n\n| what | must | aim | measured |\n"
-         "| --- | --- | --- | --- |\n" +
+  return "Missed, of all targets below:\n\n| what | must | aim | measured | why |\n"
+         "| --- | --- | --- | --- | --- |\n" +
          rows;
 }
 
 }  // namespace
 
-std::string summary_markdown(const Report& report, const std::string& targets) {
+std::string summary_markdown(const Report& report, const TargetRows& targets) {
   return "## In short\n\n" + rates(report) + "\n" + sequences(report) + "\n" + missed(targets) +
          "\n";
 }

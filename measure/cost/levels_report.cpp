@@ -90,12 +90,14 @@ std::string levels_section(const CostFigures& figures) {
   std::string text =
       "## Picture level and signal level\n\n"
       "![Error of the B-scope over time at both levels](levels.svg)\n\n" +
-      comparison(figures.levels) + fmt::format("Frame {}, both", figures.levels.front().frame) +
-      " against converged powers with the sweep's exact range response, mean noise in them. "
-      "Speckle of n\nlooks leaves 5.6 dB at one and 4.34/sqrt(n) dB at many; the picture level "
-      "ends "
-      "at what its range\nresponse, worked out from whole cells, leaves at edges. Times of n looks "
-      "are n times that of one.\n\n"
+      comparison(figures.levels) + fmt::format("Frame {}", figures.levels.front().frame) +
+      ": the picture level with every effect of the plan, the signal level of surfaces and point "
+      "targets\nalone (it has no double bounce and no echo of rain; multipath is off), each "
+      "against "
+      "the converged powers\nof the same, with the sweep's exact range response and mean noise. "
+      "Speckle of n looks leaves 5.6 dB at\none and 4.34/sqrt(n) dB at many; the picture level "
+      "ends at what its range response, worked out from\nwhole cells, leaves at edges. Times of n "
+      "looks are n times that of one.\n\n"
       "| level | fineness | ms | B-scope, grey |\n| --- | ---: | ---: | ---: |\n";
   for (const LevelStep& step : figures.levels)
     text += fmt::format("| {} | {} | {:.1f} | {:.2f} |\n", words_of_level(step.level),

@@ -116,10 +116,10 @@ class Strip {
       }
   }
 
-  // More rays where what the first ones bring back differs by what shows. Decided for several
-  // intervals and all blocks at once, from them and what lies beside: were it decided ray by ray,
-  // those that meet a narrow thing would count for less and those that miss it would not, and it
-  // would lose power. Without losses in the air: no weather moves a ray.
+  // More rays where what the first ones bring back differs by a part of shown_W. Decided for
+  // several intervals and all blocks at once, from them and what lies beside: were it decided ray by
+  // ray, those that meet a narrow thing would count for less and those that miss it would not, and
+  // it would lose power. Without losses in the air: no weather moves a ray.
   void refine() {
     for (int begin = 0; begin < intervals_; begin += kTogether) {
       const int end = std::min(begin + kTogether, intervals_);
@@ -148,7 +148,7 @@ class Strip {
     }
   }
 
-  // The largest difference between two intervals in what a cell shows.
+  // The largest difference between two intervals, in parts of shown_W.
   double change_within(int begin, int end) const {
     double least = 1e300, most = 0.0;
     for (int j = std::max(begin, 0); j < std::min(end, intervals_); ++j)

@@ -1,10 +1,11 @@
 // The bounces of a few picture columns' worth of azimuths.
 //
 // The fan is cut into intervals of elevation and blocks of azimuth, with one ray in each, at a
-// place of its own. Where the rays around it differ by what shows in their cell, an interval gets
-// more. On planes through the facets that it met, a ray's echo is spread over the ranges and rows
-// between the ends of what it stands for in elevation; in azimuth it counts where it is. Rays of a
-// reference are jittered instead, and count where they were sent.
+// place of its own. Where what the rays around it add differs by more than a part of a fixed power
+// of their cell (shown_powers_W), an interval gets more. On planes through the facets that it met, a
+// ray's echo is spread over the ranges and rows between the ends of what it stands for in elevation;
+// in azimuth it counts where it is. Rays of a reference are jittered instead, and count where they
+// were sent.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +24,8 @@ class BounceFan;
 struct BounceSampling {
   int azimuths = 1;            // blocks per strip
   double rays_per_cell = 1.0;  // range cells of ground, per block: without those for what differs
-  // Of what a cell shows: where neighbours differ by more, an interval gets a ray for each of it.
+  // Of the powers BounceFrame::shown_W: where neighbours differ by more, an interval gets a ray for
+  // each of it.
   double smallest_change = 0.0;
   double longest_reach_m = 0.0;  // of what one ray stands for, to either side of it
   terrain::Packing mirrored = terrain::Packing::alike;  // rays behind mirrors

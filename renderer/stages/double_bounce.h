@@ -4,14 +4,15 @@
 // the echoes to the fan before the azimuth beam.
 //
 // How it samples (bounce_strip.h): azimuths and elevations of its own, as many as the caster's
-// samples ask for, and more where they show beside what the cell holds already. The fan begins at
-// the lowest elevation of the beam: what is nearer than the first range cell shows nothing itself,
-// but mirrors. A level has twice as many samples as the one before and replaces it: the mean of
-// several coarse fans would keep what their intervals blur.
+// samples ask for, and more where what they add differs by more than a part of a fixed power
+// (bounce_limits.h), whatever the cell holds already. The fan begins at the lowest elevation of the
+// beam: what is nearer than the first range cell shows nothing itself, but mirrors. A level has
+// twice as many samples as the one before and replaces it: the mean of several coarse fans would
+// keep what their intervals blur.
 //
 // Deterministic: each strip of sub-columns is one thread's; echoes that lie in another strip are
 // added afterwards, in the order of the strips.
-// Cost: docs/physics/double-bounce.md gives milliseconds.
+// Cost: docs/performance.md has milliseconds of whole pictures beside those of surfaces alone.
 #pragma once
 
 #include "renderer/casting/caster.h"
