@@ -184,8 +184,17 @@ class Page(unittest.TestCase):
         self.assertFalse(cell["gone"])
         body.send_keys(Keys.ARROW_RIGHT)
         self.assertEqual(self.number(), newest - 2)
+        # Back at the frame that was frozen it stays so; who never froze one sees frames come again.
+        body.send_keys(Keys.ARROW_RIGHT, Keys.ARROW_RIGHT, Keys.ARROW_RIGHT)
+        time.sleep(1.0)
+        self.assertEqual(self.number(), newest)
+        self.assertEqual(self.page.find_element("id", "freeze").get_attribute("aria-pressed"), "true")
         body.send_keys("n")
         self.wait(lambda: self.number() > newest, "newer frame")
+        body.send_keys(Keys.ARROW_LEFT)
+        self.assertTrue(self.js("state.frozen"))
+        body.send_keys(Keys.ARROW_RIGHT)
+        self.assertFalse(self.js("state.frozen"))
 
     def test_a_finger_that_taps_a_picture_reads_it(self):
         self.page.find_element("id", "freeze").click()
