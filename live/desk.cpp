@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/errors.h"
@@ -55,7 +56,8 @@ int whole_in(const std::string& query, const std::string& name, core::ProblemLis
   int value = 0;
   const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (word.empty() || fault != std::errc() || end != word.data() + word.size() || value < 0)
-    problems.error(core::ErrorClass::parse, {}, name, "\"" + word + "\"", "a whole number from 0");
+    problems.error(core::ErrorClass::parse, {}, name, "\"" + word + "\"",
+                   "a whole number from 0 to " + std::to_string(std::numeric_limits<int>::max()));
   return value;
 }
 
