@@ -17,7 +17,8 @@ void add_poses(CLI::App& command, LiveOptions& options) {
               "--from", options.from,
               "Where the aircraft is: circle (round the runway, no simulator needed), ils (the "
               "scene's own trajectory, again and again), csv:FILE (that of a file with columns "
-              "time_s, latitude_deg, longitude_deg, height_m), native-fdm:[ADDRESS:]PORT "
+              "time_s, latitude_deg, longitude_deg, height_m, again and again too), "
+              "native-fdm:[ADDRESS:]PORT "
               "(FlightGear with --native-fdm=socket,out,16,127.0.0.1,PORT,udp), "
               "fg-generic:[ADDRESS:]PORT (FlightGear with the shipped add-on), "
               "cigi:[ADDRESS:]PORT (a CIGI 3.3 host, answered where it sends from, or at "

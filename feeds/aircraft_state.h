@@ -37,7 +37,7 @@ enum class PacketFault {
 inline constexpr std::size_t kPacketFaults = 10;  // with none
 const char* name_of(PacketFault fault);
 
-// late and jump are of the packets before it (live/clock_gate.h), step too: a place that no aircraft reaches from
+// late and jump are of the packets before it (live/clock_gate.h, way_gate.h), step too: a place that no aircraft reaches from
 // there (live/predictor.h); foreign of who sent it; nonfinite: a
 // number that is not. range: a latitude beyond 90 deg, a longitude beyond 540 deg, a height beyond -20
 // to 1000 km, an angle over 1000 rad, a speed over 10 km/s, or latitude, longitude and altitude that

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/errors.h"
@@ -18,7 +19,12 @@ namespace fanbeam::live {
 namespace {
 
 constexpr core::JsonLimits kLimits{8, 100};
-constexpr const char *kWeather = "/api/weather", *kSensor = "/api/sensor";
+constexpr const char *kWeather = "/api/weather", *kSensor = "/api/sensor", *kCell = "/api/cell";
+
+// Without its query.
+std::string path_of(const Request& request) {
+  return request.target.substr(0, request.target.find('?'));
+}
 
 Answer json_answer(const Json& value, int status = 200) {
   return {status, "application/json", value.dump(-1, ' ', true, Json::error_handler_t::replace)};
@@ -50,7 +56,8 @@ int whole_in(const std::string& query, const std::string& name, core::ProblemLis
   int value = 0;
   const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (word.empty() || fault != std::errc() || end != word.data() + word.size() || value < 0)
-    problems.error(core::ErrorClass::parse, {}, name, "\"" + word + "\"", "a whole number from 0");
+    problems.error(core::ErrorClass::parse, {}, name, "\"" + word + "\"",
+                   "a whole number from 0 to " + std::to_string(std::numeric_limits<int>::max()));
   return value;
 }
 
@@ -138,10 +145,11 @@ void set_sensor(session::Session& session, const core::JsonNode& root) {
 
 Answer refusal(int status, const std::string& why) { return json_answer({{"error", why}}, status); }
 
+bool Desk::renders(const Request& request) { return path_of(request) == kCell; }
+
 Answer Desk::answer(const Request& request) const {
   if (const std::optional<Answer> refused = access_.refuse(request)) return *refused;
-  const std::size_t mark = std::min(request.target.find('?'), request.target.size());
-  const std::string path = request.target.substr(0, mark);
+  const std::string path = path_of(request);
   const bool asks = request.method == "GET" || request.method == "HEAD";
   if (!asks && request.method != "POST") {
     Answer refused = refusal(405, "GET, HEAD or POST");
@@ -151,7 +159,7 @@ Answer Desk::answer(const Request& request) const {
   if (!asks && !request.content_type.starts_with("application/json"))
     return refusal(415, "content type application/json");
   try {
-    if (asks) return get(path, request.target.substr(mark));
+    if (asks) return get(path, request.target.substr(path.size()));
     if (!is_control(path)) return refusal(404, "no such control");
     control(path, request.body);
     return get(path, {});
@@ -178,7 +186,7 @@ Answer Desk::cell(const std::string& query) const {
 }
 
 Answer Desk::get(const std::string& path, const std::string& query) const {
-  if (path == "/api/cell") return cell(query);
+  if (path == kCell) return cell(query);
   if (path == "/") return {200, "text/html; charset=utf-8", page()};
   if (path == "/api/openapi.json") return {200, "application/json", openapi()};
   if (path == "/api/status") return json_answer(status_json(hub_.status()));

@@ -49,6 +49,8 @@ class Desk {
         truth_(session, hub) {}
 
   const Access& access() const { return access_; }
+  // Whether its answer may take as long as a frame does.
+  static bool renders(const Request& request);
   // Thread-safe. Never throws for what stands in the request.
   Answer answer(const Request& request) const;
   // What a POST with that body does. Throws InputError with all that is wrong, and changes nothing then.

@@ -47,9 +47,7 @@ std::optional<Feed::Heard> Feed::heard_in(std::span<const std::uint8_t> datagram
 bool Feed::take(std::span<const std::uint8_t> datagram, Clock::time_point arrived) {
   feeds::PacketFault fault{};
   const auto state = protocol_.decode(datagram, fault);
-  if (state && protocol_.fine_clock)
-    fault = gate_.take(state->clock_s,
-                       std::chrono::duration<double>(arrived.time_since_epoch()).count());
+  if (state) fault = fault_in_turn(*state, arrived);
   if (fault == feeds::PacketFault::jump) {
     settle(false);
     jumped_ = {*state, {datagram.begin(), datagram.end()}, arrived};
@@ -63,6 +61,17 @@ bool Feed::take(std::span<const std::uint8_t> datagram, Clock::time_point arrive
   const std::lock_guard<std::mutex> lock(mutex_);
   newest_ = state;
   return true;
+}
+
+feeds::PacketFault Feed::fault_in_turn(const feeds::AircraftState& state,
+                                       Clock::time_point arrived) {
+  const double arrived_s = std::chrono::duration<double>(arrived.time_since_epoch()).count();
+  if (protocol_.fine_clock) return gate_.take(state.clock_s, arrived_s);
+  const core::Pose pose = feeds::pose_of(state);
+  const bool counts =
+      way_gate_.take({arrived_s, scene_->frame.to_local_m(pose.position),
+                      scene_->frame.north_east_down_at(pose.position) * pose.v_N_mps});
+  return counts ? feeds::PacketFault::none : feeds::PacketFault::late;
 }
 
 // What waited counts, or is of no use.

@@ -23,6 +23,7 @@
 #include "live/clock_gate.h"
 #include "live/hub.h"
 #include "live/mailbox.h"
+#include "live/way_gate.h"
 #include "scenes/scene.h"
 
 namespace fanbeam::live {
@@ -41,7 +42,7 @@ class Feed {
        const feeds::Protocol& protocol = feeds::kProtocols[0],
        std::shared_ptr<Mailbox> mailbox = std::make_shared<Mailbox>(), std::size_t source = 0);
 
-  // Any bytes, from one thread; whether they are a packet of use by themselves. The first after a step of
+  // Any bytes, from one thread; whether they are a packet of use by themselves, in their turn. The first after a step of
   // the simulator's clock waits for the next one: then both count, or it is counted as a jump.
   bool take(std::span<const std::uint8_t> datagram, Clock::time_point arrived = Clock::now());
   // One that nobody asked for: counted.
@@ -70,6 +71,8 @@ class Feed {
     Clock::time_point arrived;
   };
   Heard heard(const feeds::AircraftState& state) const;
+  // What is wrong with it beside those before it.
+  feeds::PacketFault fault_in_turn(const feeds::AircraftState& state, Clock::time_point arrived);
   void settle(bool counts);
   void put(const Taken& one);
   void count(feeds::PacketFault fault);
@@ -79,6 +82,7 @@ class Feed {
   core::VerticalDatum datum_;
   const feeds::Protocol& protocol_;  // one of feeds::kProtocols
   ClockGate gate_;
+  WayGate way_gate_;             // where there is no fine clock
   std::optional<Taken> jumped_;  // waits
   std::shared_ptr<Mailbox> mailbox_;
   std::size_t source_;

@@ -66,8 +66,10 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
       if (by_socket) return watch_by_socket(stream_.release_socket(), request, room_);
       return watch_by_stream(stream_.release_socket(), path, room_);
     }
-    // In the office: some answers are rendered, and frames and other visitors do not wait for them.
-    asio::post(room_.office, [self = shared_from_this(), request, asked] {
+    // Frames wait for no answer, and what is at hand for none that is rendered. Of each connection one request
+    // waits, as the next is read after its answer.
+    asio::thread_pool& where = Desk::renders(asked) ? room_.office : room_.counter;
+    asio::post(where, [self = shared_from_this(), request, asked] {
       const core::StopToken leaving = self->room_.leaving.token();
       if (leaving.reason() != 0) return;
       const core::StopScope scope(leaving);
@@ -252,8 +254,8 @@ Network::~Network() {
     asio::post(*context, [context] { context->stop(); });  // behind what was sent last
   for (auto* const thread : {&inside_->listener, &inside_->thread})
     if (thread->joinable()) thread->join();
-  // Not stop(): who waits in its queue has a socket of `context`, which goes first.
-  inside_->room.office.join();
+  // Not stop(): who waits in their queues has a socket of `context`, which goes first.
+  for (auto* const pool : {&inside_->room.counter, &inside_->room.office}) pool->join();
 }
 
 std::uint16_t Network::serve(const Endpoint& endpoint) {

@@ -1,5 +1,7 @@
-// What listens: the page with its WebSocket, and a simulator's datagrams. A thread for each, and one that
-// answers, so that no request, whatever it takes to answer, keeps a frame or a datagram waiting.
+// What listens: the page with its WebSocket, and a simulator's datagrams. A thread for each, one that answers what is
+// at hand, and one that answers what has to be rendered (Desk::renders): no request keeps a frame or a datagram
+// waiting, and a cell that somebody points at no other answer than the next cell's. Of each connection one request
+// waits: the next is read after its answer.
 //
 // Bounded: 32 connections, 8 KiB of header, 64 KiB of body, 30 s for a request, an answer and a frame that
 // is under way, 64 KiB of a message from a browser (all are thrown away). A client that reads slowly misses

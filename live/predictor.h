@@ -41,7 +41,7 @@ class Predictor {
 
   explicit Predictor(const terrain::LocalFrame& frame) : frame_(frame) {}
 
-  // At increasing times of arrival and in the order that they were sent (ClockGate sees to that), as a clock that
+  // At increasing times of arrival and in the order that they were sent (ClockGate and WayGate see to that), as a clock that
   // goes back begins anew. What then is not later than the last is dropped. Finite poses. `clock_s` of a source that tells one packet's time from the next one's.
   // From another `source` than before it begins anew: that has another clock, and flies what it flies.
   void take(const core::Pose& pose, double arrived_s, const std::optional<double>& clock_s = {},

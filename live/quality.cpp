@@ -4,12 +4,14 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "core/errors.h"
 #include "core/parallel.h"
 #include "live/processor_time.h"
 #include "renderer/plan/effects.h"
+#include "scenes/frame_plan.h"
 
 namespace fanbeam::live {
 
@@ -28,8 +30,8 @@ Quality::~Quality() {
 
 void Quality::tell(Status& status) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  status.errors.reset();
-  if (samples_ > 0.0 && samples_ == status.samples) status.errors = errors_;
+  const auto known = errors_.find(status.samples);
+  status.errors = known == errors_.end() ? std::nullopt : std::optional(known->second);
 }
 
 double Quality::processor_s() {
@@ -46,28 +48,45 @@ void Quality::run(double every_s) {
   const core::StopToken stop = stop_.token();
   const core::StopScope scope(stop);
   while (stop.reason() == 0) {
-    const double wait_s = look() ? every_s : kAgain_s;
+    const double wait_s = look() ? every_s : kAgain_s, step_s = std::min(wait_s, kAgain_s);
     std::unique_lock<std::mutex> lock(mutex_);
-    leave_.wait_for(lock, std::chrono::duration<double>(wait_s),
-                    [&] { return stop.reason() != 0; });
+    double waited_s = 0.0;
+    do {
+      leave_.wait_for(lock, std::chrono::duration<double>(step_s),
+                      [&] { return stop.reason() != 0; });
+      waited_s += step_s;
+    } while (stop.reason() == 0 && waited_s < wait_s && !is_new());
   }
+}
+
+bool Quality::is_new() const {
+  const std::shared_ptr<const LiveFrame> frame = hub_.newest();
+  return frame && errors_.count(frame->samples) == 0;
+}
+
+renderer::Frame Quality::estimated(const LiveFrame& frame) const {
+  const std::shared_ptr<const scenes::Scene> scene = session_.scene(frame.under);
+  const renderer::FramePose pose = scene->pose_at(frame.pose);
+  renderer::Sampling sampling = session_.sampling(frame.under);
+  sampling.estimate_error = true;
+  const auto render = [&](const renderer::World& world, const core::EffectPlan& plan) {
+    return renderer::render_frame(
+        world, sampling, {true, true},
+        renderer::without_draws(renderer::effects_of(plan, session_.seed())), pose);
+  };
+  if (!frame.outside_volume) return render(scene->world, scene->plan);
+  const core::EffectPlan plan = scenes::plan_alone(*scene, pose);
+  return render(scenes::world_for(*scene, plan), plan);
 }
 
 bool Quality::look() {
   const std::shared_ptr<const LiveFrame> frame = hub_.newest();
-  if (!frame || !frame->under || frame->outside_volume) return false;
+  if (!frame || !frame->under) return false;
   try {
-    const std::shared_ptr<const scenes::Scene> scene = session_.scene(frame->under);
-    renderer::Sampling sampling = session_.sampling(frame->under);
-    sampling.estimate_error = true;
-    const renderer::Effects effects =
-        renderer::without_draws(renderer::effects_of(scene->plan, session_.seed()));
-    const renderer::Frame made = renderer::render_frame(scene->world, sampling, {true, true},
-                                                        effects, scene->pose_at(frame->pose));
+    const renderer::Frame made = estimated(*frame);
     if (!made.error) return false;
     const std::lock_guard<std::mutex> lock(mutex_);
-    samples_ = frame->samples;
-    errors_ = {made.error->rms_grey, made.error->cscope_rms_grey};
+    errors_[frame->samples] = {made.error->rms_grey, made.error->cscope_rms_grey};
     return true;
   } catch (const core::InputError&) {
     return false;  // a pose that nothing can be rendered at

@@ -123,6 +123,7 @@ void write_header(std::uint8_t* memory, const sensors::Sensor& sensor, double ra
     put(memory + at, value);
     at += sizeof value;
   }
+  std::memcpy(memory + Layout::kUnitsAt, Layout::kUnits, sizeof Layout::kUnits);
   // Last: who sees it sees the rest.
   std::atomic_thread_fence(std::memory_order_release);
   std::memcpy(memory, Layout::kMagic, sizeof Layout::kMagic);

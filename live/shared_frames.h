@@ -29,6 +29,12 @@ struct SharedLayout {
   static constexpr std::size_t kAxesAt = 40;  // eight f64, see shared_frames.cpp
   static constexpr std::size_t kCScopeTopAt = 64, kLevelsAt = 80;  // of those
   static constexpr std::size_t kNewestAt = 104;
+  // Text, ended by a zero; in memory of earlier channels of this version nothing but zeros.
+  static constexpr std::size_t kUnitsAt = 112;
+  static constexpr char kUnits[] =
+      "range:m,angle:rad,level:dB,rate:Hz,time:s,position:rad WGS84,height:m ellipsoid,"
+      "samples:per cell,error:grey RMS";
+  static_assert(kUnitsAt + sizeof kUnits <= kHeader_bytes);
 };
 
 class SharedFrames {

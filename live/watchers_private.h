@@ -58,7 +58,8 @@ struct Room {
   const Hub& hub;
   std::chrono::milliseconds patience;  // with a request, an answer, a frame under way
   core::StopSource leaving{};          // of what is rendered for answers
-  asio::thread_pool office{1};         // where requests are answered
+  asio::thread_pool counter{1};        // where requests are answered that need no rendering
+  asio::thread_pool office{1};         // and where the others are, one after the other
   std::atomic<int> connections{0}, viewers{0};
   Watchers watching{};  // of the thread alone
 };

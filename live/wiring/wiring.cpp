@@ -10,7 +10,8 @@ namespace {
 // Of the file or, without one, of the environment.
 Access access_of(const RunSettings& settings, const char* token) {
   if (!settings.token_file.empty()) return access_from(settings.token_file);
-  return token == nullptr ? Access() : Access(token, core::Place{kTokenVariable});
+  const bool none = token == nullptr || *token == '\0';
+  return none ? Access() : Access(token, core::Place{kTokenVariable});
 }
 
 // Of a recording its first line names the sources, and no option.

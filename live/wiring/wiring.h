@@ -38,7 +38,7 @@ struct Wiring {
 
 inline constexpr const char* kTokenVariable = "FANBEAM_TOKEN";
 
-// `token`: what kTokenVariable holds, which counts without a file; null for nothing. `from` is that of the
+// `token`: what kTokenVariable holds, which counts without a file; null or empty for nothing. `from` is that of the
 // recording where there is one. Throws InputError with all that is wrong.
 Wiring wiring_of(const RunSettings& settings, const char* token);
 

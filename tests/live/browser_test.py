@@ -184,8 +184,17 @@ class Page(unittest.TestCase):
         self.assertFalse(cell["gone"])
         body.send_keys(Keys.ARROW_RIGHT)
         self.assertEqual(self.number(), newest - 2)
+        # Back at the frame that was frozen it stays so; who never froze one sees frames come again.
+        body.send_keys(Keys.ARROW_RIGHT, Keys.ARROW_RIGHT, Keys.ARROW_RIGHT)
+        time.sleep(1.0)
+        self.assertEqual(self.number(), newest)
+        self.assertEqual(self.page.find_element("id", "freeze").get_attribute("aria-pressed"), "true")
         body.send_keys("n")
         self.wait(lambda: self.number() > newest, "newer frame")
+        body.send_keys(Keys.ARROW_LEFT)
+        self.assertTrue(self.js("state.frozen"))
+        body.send_keys(Keys.ARROW_RIGHT)
+        self.assertFalse(self.js("state.frozen"))
 
     def test_a_finger_that_taps_a_picture_reads_it(self):
         self.page.find_element("id", "freeze").click()
@@ -356,13 +365,15 @@ class Page(unittest.TestCase):
                 return json.load(refused)
         api = asked("api/openapi.json")
 
-        def check(answer, schema):
-            jsonschema.Draft202012Validator({"$ref": f"#/components/schemas/{schema}",
-                                             "components": api["components"]}).validate(answer)
+        def hold(answer, schema):
+            jsonschema.Draft202012Validator({**schema, "components": api["components"]}).validate(answer)
+
+        def check(answer, name):
+            hold(answer, {"$ref": f"#/components/schemas/{name}"})
         for path, one in api["paths"].items():
-            schema = one["get"]["responses"].get("200", {}).get("content", {}).get("application/json", {})
-            if schema and path != "/api/cell":
-                check(asked(path[1:]), schema["schema"]["$ref"].rsplit("/", 1)[1])
+            content = one["get"]["responses"].get("200", {}).get("content", {}).get("application/json", {})
+            if content and path != "/api/cell":
+                hold(asked(path[1:]), content["schema"])
         for number in (self.number(), 10**9):
             check(asked(f"api/cell?scope=bscope&frame={number}&column=80&row=300"), "Cell")
         check(asked("api/cell?scope=x"), "Problems")

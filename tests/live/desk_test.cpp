@@ -320,6 +320,33 @@ TEST_CASE("Frames that are no longer the newest tell their truth, as long as is 
   CHECK_FALSE(gone(1140));
 }
 
+TEST_CASE("The description has every page of the desk, itself too, and the limits of what is asked",
+          "[desk]") {
+  const Office office;
+  const json api = json::parse(office.desk.answer(get("/api/openapi.json")).body);
+  for (const char* path : {"/", "/api/status", "/api/plan", "/api/map", "/api/cell", "/api/weather",
+                           "/api/sensor", "/api/openapi.json", "/metrics"}) {
+    INFO(path);
+    CHECK(api["paths"].contains(path));
+    CHECK(office.desk.answer(get(path)).status != 404);
+  }
+  for (const json& parameter : api["paths"]["/api/cell"]["get"]["parameters"]) {
+    const auto name = parameter["name"].get<std::string>();
+    if (name == "scope") continue;
+    INFO(name);
+    const auto status_of = [&](std::int64_t value) {
+      std::string target = "/api/cell?scope=bscope";
+      for (const char* one : {"frame", "column", "row"})
+        target += "&" + std::string(one) + "=" + std::to_string(one == name ? value : 0);
+      return office.desk.answer(get(target)).status;
+    };
+    const auto most = parameter["schema"].at("maximum").get<std::int64_t>();
+    CHECK(status_of(parameter["schema"]["minimum"]) == 200);  // gone, as there is no frame
+    CHECK(status_of(most) == 200);
+    CHECK(status_of(most + 1) == 422);
+  }
+}
+
 TEST_CASE("A cell that is none is refused with all that is wrong", "[desk]") {
   Office office;
   const live::Answer wrong = office.desk.answer(get("/api/cell?scope=x&frame=-1&column=1e3"));

@@ -1,9 +1,11 @@
 // A recorded FlightGear flight over the scene that it flew over.
 #include "live/feed.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <fstream>
+#include <random>
 #include <string>
 
 #include "core/units.h"
@@ -209,6 +211,63 @@ TEST_CASE("F11 of a million datagrams every good one is taken and every other co
   CHECK(status.bad_packets == std::vector<std::pair<std::string, std::uint64_t>>{
                                   {"another length", length}, {"another version", version}});
   CHECK(feed.mailbox().after(0).back().number == taken);
+}
+
+TEST_CASE("F11 of a million lines every good one is taken and every other counted by its reason",
+          "[feed]") {
+  const tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  live::Feed feed(session->scene(), core::VerticalDatum::egm96, feeds::kProtocols[1]);
+  const auto begin = live::Clock::now();
+  std::mt19937 random(7);
+  const std::string head = "fanbeam,2,", rest = ",52,10,600,500,0,0,90,0,200,0,5000,0.25,0.5\n";
+  std::uint64_t good = 0, length = 0, version = 0, format = 0, nonfinite = 0;
+  for (int i = 0; i < 1'000'000; ++i) {
+    std::string line = head + std::to_string(100.0 + 0.005 * i) + rest;
+    const auto bit = [&] { return static_cast<char>(1U << random() % 8); };
+    const std::size_t comma = line.find(',', head.size() + random() % (rest.size() - 12));
+    switch (i % 8) {
+      case 0:
+        line[random() % head.size()] ^= bit();  // no bit makes it the first version's
+        ++version;
+        break;
+      case 1:
+        line[comma] ^= bit();
+        ++format;
+        break;
+      case 2:
+        line.resize(comma + 1);
+        ++format;
+        break;
+      case 3:
+        line.replace(comma + 1, line.find(',', comma + 1) - comma - 1,
+                     random() % 2 ? "nan" : "1e400");
+        ++nonfinite;
+        break;
+      case 4:
+        std::reverse(line.begin(), line.end());
+        ++version;
+        break;
+      case 5:
+        line.resize(random() % 2001);
+        for (char& letter : line) letter = static_cast<char>(random() | 0x80);
+        ++(line.size() > 1024 ? length : version);
+        break;
+      default:
+        ++good;
+    }
+    feed.take({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()},
+              begin + std::chrono::milliseconds(5 * i));
+  }
+  live::Status status;
+  feed.tell(status);
+  CHECK(status.packets == 1'000'000);
+  CHECK(status.bad_packets == std::vector<std::pair<std::string, std::uint64_t>>{
+                                  {"another length", length},
+                                  {"another version", version},
+                                  {"not numbers between commas", format},
+                                  {"a number that is not finite", nonfinite}});
+  CHECK(feed.mailbox().count() == good);
 }
 
 TEST_CASE("F15 a source a hundred times too fast fills nothing, and the newest pose counts",

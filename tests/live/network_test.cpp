@@ -68,8 +68,9 @@ json next_head(WebSocket& socket, std::string* pixels = nullptr) {
   return json::parse(message.substr(0, message.find('\n')));
 }
 
-// What the server says to these bytes before it closes or falls silent for a second.
-std::string answer_to(const WebStation& station, const std::string& bytes) {
+// What the server says to these bytes before it closes or that time is over.
+std::string answer_to(const WebStation& station, const std::string& bytes,
+                      std::chrono::seconds most = std::chrono::seconds(1)) {
   asio::io_context context;
   tcp::socket socket(context);
   socket.connect(station.endpoint());
@@ -85,8 +86,22 @@ std::string answer_to(const WebStation& station, const std::string& bytes) {
                            });
   };
   read();
-  context.run_for(std::chrono::seconds(1));
+  context.run_for(most);
   return answer;
+}
+
+// Who points at a cell of a frame of that number, which is flown over the scene of now.
+tcp::socket pointing(asio::io_context& context, WebStation& station, std::uint64_t number) {
+  auto frame = std::make_shared<live::LiveFrame>(*narrow_frame(number));
+  frame->scene = station.session->scene();
+  frame->pose = live::circle(*frame->scene)(0.1 * static_cast<double>(number));
+  station.hub.publish(frame);
+  tcp::socket socket(context);
+  socket.connect(station.endpoint());
+  asio::write(socket, asio::buffer("GET /api/cell?scope=bscope&column=80&row=300&frame=" +
+                                   std::to_string(number) + " HTTP/1.1\r\nHost: " + station.host() +
+                                   "\r\n\r\n"));
+  return socket;
 }
 
 void wait_for(const std::function<bool()>& done) {
@@ -240,22 +255,36 @@ TEST_CASE("The end does not wait for answers that nobody will get", "[network][t
   station->network.start();
   asio::io_context context;
   std::vector<tcp::socket> asking;
-  for (std::uint64_t number = 1; number <= 16; ++number) {
-    auto frame = std::make_shared<live::LiveFrame>();
-    frame->number = number;
-    frame->scene = scene;
-    frame->pose = live::circle(*scene)(0.1 * static_cast<double>(number));
-    station->hub.publish(frame);
-    asking.emplace_back(context);
-    asking.back().connect(station->endpoint());
-    asio::write(asking.back(), asio::buffer("GET /api/cell?scope=bscope&column=80&row=300&frame=" +
-                                            std::to_string(number) +
-                                            " HTTP/1.1\r\nHost: " + station->host() + "\r\n\r\n"));
-  }
+  for (std::uint64_t number = 1; number <= 16; ++number)
+    asking.push_back(pointing(context, *station, number));
   wait_for([&] { return tests::processor_time_s() - asked_s > 0.2 * work_s; });
   const auto begin = live::Clock::now();
   station.reset();
   CHECK(live::seconds_between(begin, live::Clock::now()) < one_s);
+}
+
+// Whoever pointed at a cell held up pictures, status and controls of all others.
+TEST_CASE("What is at hand is answered while a cell is rendered", "[network][threads]") {
+  WebStation station;
+  station.session->set(session::Samples{5000.0});  // half a minute of processor time
+  station.network.start();
+  const double before_s = tests::processor_time_s();
+  asio::io_context context;
+  std::vector<tcp::socket> asking;
+  for (const std::uint64_t number : {1, 2}) asking.push_back(pointing(context, station, number));
+  wait_for([&] { return tests::processor_time_s() - before_s > 0.2; });
+  const std::string rest = " HTTP/1.1\r\nHost: " + station.host() + "\r\nConnection: close\r\n";
+  const std::string body = R"({"rain_rate_mm_per_h": 4})";
+  for (const std::string& request :
+       {"GET /" + rest, "GET /api/status" + rest, "GET /metrics" + rest, "GET /api/plan" + rest,
+        "GET /api/sensor" + rest, "GET /api/weather" + rest, "GET /frame/bscope.png" + rest,
+        "POST /api/weather" + rest + "Content-Type: application/json\r\nContent-Length: " +
+            std::to_string(body.size()) + "\r\n"}) {
+    INFO(request);
+    const std::string asked = request + "\r\n" + (request.starts_with("POST") ? body : "");
+    CHECK(answer_to(station, asked, std::chrono::seconds(60)).starts_with("HTTP/1.1 200"));
+  }
+  for (const tcp::socket& socket : asking) CHECK(socket.available() == 0);
 }
 
 // What was thrown there went through the network's thread and ended the program.

@@ -1,8 +1,10 @@
 // The error that is told with live pictures.
 #include "live/quality.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "core/units.h"
 #include "live/flights.h"
 #include "live/mailbox.h"
 #include "renderer/plan/effects.h"
@@ -68,6 +70,39 @@ TEST_CASE("The error that is told is the renderer's own estimate for the frame t
   finer = told_by(quality, 16.0);
   REQUIRE(finer.errors.has_value());
   CHECK(finer.errors->bscope_grey < 0.5 * coarse.errors->bscope_grey);
+}
+
+// It was gone for five seconds at each step of the ladder, and for as long as the aircraft was far out.
+TEST_CASE("The error of a step that was measured is told at once, that of another one soon",
+          "[quality][threads]") {
+  const tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  live::Hub hub;
+  const live::Quality quality(*session, hub, 1000.0);  // of a step that was measured
+  hub.publish(frame_at(*session, 1.0, 1));
+  const live::Status coarse = told_by(quality, 1.0);
+  REQUIRE(coarse.errors.has_value());
+  session->set(session::Samples{4.0});
+  hub.publish(frame_at(*session, 4.0, 2));
+  REQUIRE(told_by(quality, 4.0).errors.has_value());
+  live::Status again;
+  again.samples = 1.0;
+  quality.tell(again);
+  REQUIRE(again.errors.has_value());
+  CHECK(again.errors->bscope_grey == coarse.errors->bscope_grey);
+
+  // From 4 km south, beyond the terrain's edge, towards it.
+  session->set(session::Samples{2.0});
+  auto outside = std::make_shared<live::LiveFrame>(*frame_at(*session, 2.0, 3));
+  outside->pose.position = {core::radians(51.964), core::radians(10.0), 350.0};
+  outside->pose.q_NB = core::quaternion_from({0.0, 0.0, 0.0});
+  outside->outside_volume = true;
+  const auto events = session->render(outside->under, outside->pose, 3).events;
+  REQUIRE(std::count(events.begin(), events.end(), "outside_volume") == 1);
+  hub.publish(outside);
+  const live::Status far = told_by(quality, 2.0);
+  REQUIRE(far.errors.has_value());
+  CHECK(far.errors->bscope_grey > 0.0);
 }
 
 TEST_CASE("Whoever ends does not wait for the next look", "[quality][threads]") {

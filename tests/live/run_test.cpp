@@ -108,6 +108,9 @@ TEST_CASE("The token of the environment counts where no file of one is named", "
   const live::RunSettings settings{.http = "0.0.0.0:0"};  // beyond this machine
   CHECK_THROWS_AS(live::wiring_of(settings, nullptr), core::InputError);
   CHECK(live::wiring_of(settings, "0123456789abcdef").access.has_token());
+  // Set to nothing is not set: it was a token too short, on this machine alone too.
+  CHECK_FALSE(live::wiring_of({}, "").access.has_token());
+  CHECK_THROWS_AS(live::wiring_of(settings, ""), core::InputError);
   // Too short, and told in the words of the environment.
   try {
     live::wiring_of({}, "short");

@@ -7,6 +7,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <chrono>
@@ -156,6 +158,13 @@ TEST_CASE("The header of shared memory is what its table says, for its owner alo
           Numbers{low_sensor().display.cscope_top_rad, low_sensor().display.cscope_span_rad});
     CHECK(Numbers{number(80), number(88), number(96)} == Numbers{-55.0, 5.0, 17.5});
     CHECK(reader.number(104) == 0);
+    const auto text = reader.at<std::array<char, 256 - 112>>(112);
+    REQUIRE(std::find(text.begin(), text.end(), '\0') != text.end());
+    const std::string units = text.data();
+    CHECK(units.starts_with("range:m,angle:rad,"));
+    const std::string document = core::read_file(FANBEAM_SOURCE_DIR "/docs/live.md", 1U << 20U);
+    CHECK(document.find("| 112 | text | units, ended by a zero: `" + units + "`;") !=
+          std::string::npos);
     CHECK(reader.bytes() == 256 + 8 * std::size_t{kSlot_bytes});
     frames.write(particular_frame(21));
     CHECK(Numbers{number(64), number(72)} ==
