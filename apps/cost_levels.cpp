@@ -26,7 +26,7 @@ renderer::Effects whole_picture(const measure::CostBench& bench) {
   core::EffectPlan plan = bench.scene.plan;
   for (core::EffectDecision& decision : plan.decisions)
     if (decision.effect == core::EffectId::range_response) decision.on = false;
-  return measure::without_draws(renderer::effects_of(plan, 0));
+  return renderer::without_draws(renderer::effects_of(plan, 0));
 }
 
 // Converged powers behind the sweep. `thin` has its range cells in kThinParts.
