@@ -6,7 +6,7 @@
 namespace fanbeam::benchmarks {
 namespace {
 
-std::string pair_text(const PictureError& error, double GreyError::*figure) {
+std::string pair_of(const PictureError& error, double GreyError::*figure) {
   return benchmarks::pair_text(error.with_noise.*figure, error.noise_free.*figure);
 }
 
@@ -15,7 +15,7 @@ std::string error_columns(const FrameError& error) {
   std::string out;
   for (const PictureError* picture : {&error.bscope, &error.cscope})
     for (double GreyError::*figure : {&GreyError::rms, &GreyError::lit_rms, &GreyError::lit_p99})
-      out += fmt::format(" {} |", pair_text(*picture, figure));
+      out += fmt::format(" {} |", pair_of(*picture, figure));
   return out + "\n";
 }
 
