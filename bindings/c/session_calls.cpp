@@ -73,7 +73,10 @@ session::Setup settings_of(const fanbeam_setup& setup, Arguments& arguments) {
                      "0 to 1024");
   settings.threads = setup.threads;
   arguments.number(setup.samples_per_cell, "setup.samples_per_cell", renderer::kSamplesOrDefault);
-  arguments.reserved(setup.reserved, "setup.reserved");
+  if (setup.bscope_alone != 0 && setup.bscope_alone != 1)
+    arguments.refuse(core::ErrorClass::range, "setup.bscope_alone",
+                     std::to_string(setup.bscope_alone), "0 or 1");
+  settings.build.heights_shown = setup.bscope_alone == 0;
   return settings;
 }
 

@@ -222,3 +222,18 @@ def test_lookups(root):
     assert fanbeam.Atmosphere(35e9, rain_rate_mm_per_h=10.0).one_way_dB_per_km(0.0)["rain"] == pytest.approx(
         0.3374 * 10**0.9047, rel=1e-3
     )
+
+
+def test_a_scene_of_bscopes_alone_is_planned_for_them():
+    # In a C-scope of mode shadow a trace of snow may raise or hide a whole obstacle.
+    for cscope in (True, False):
+        scene = fanbeam.Scene.open("flat-grass", cscope=cscope)
+        scene.set_sensor(cscope_mode="shadow")
+        scene.set_weather(snow_rate_mm_per_h=0.001, temperature_C=-5.0)
+        assert scene.plan.runs("snow") == cscope
+        assert (scene.render(0).cscope is not None) == cscope
+    sent = pickle.loads(pickle.dumps(scene))
+    assert str(sent.plan) == str(scene.plan) and sent.render(0).cscope is None
+    for asked in ("cscope", "cscope_layers", "labels"):
+        with pytest.raises(fanbeam.InputError, match=f"E-REF {asked} = True: expected False, as the scene was opened"):
+            sent.render(0, **{asked: True})
