@@ -13,7 +13,7 @@ namespace fanbeam::apps {
 CLI::Option* add_accuracy_option(CLI::App& command, double& accuracy_grey,
                                  const std::string& what) {
   return command.add_option("--accuracy", accuracy_grey, what)
-      ->check(number_from(renderer::kAccuracies_grey.low, renderer::kAccuracies_grey.high));
+      ->check(number_from(renderer::kAccuracies_grey));
 }
 
 void add_caster_option(CLI::App& command, std::string& caster, const std::string& what) {

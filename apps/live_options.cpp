@@ -98,7 +98,7 @@ CLI::App& add_live_command(CLI::App& program, LiveOptions& options) {
                   "Rays per range cell and column, or azimuth slices per column (fractions: the "
                   "next whole number, with fewer rays for bounces; default: the most that keeps "
                   "the rate; in lockstep the scene's)")
-      ->check(number_from(renderer::kSamplesPerCell.low, renderer::kSamplesPerCell.high))
+      ->check(number_from(renderer::kSamplesPerCell))
       ->excludes(replay);
   add_effects_option(command, options.effects, renderer::Touches::pictures);
   command.add_option("--seconds", options.seconds, "End after so long (default: when stopped)")

@@ -3,33 +3,27 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <string>
 
-#include "core/errors.h"
+#include "core/number_range.h"
 #include "core/text.h"
 
 namespace fanbeam::apps {
 
-// As people write it: 1e7, not 1e+07.
-inline std::string limit_text(double limit) {
-  std::string text = core::number_text(limit);
-  const std::size_t exponent = text.find("e+0");
-  return exponent == std::string::npos ? text : text.replace(exponent, 3, "e");
-}
-
 // A number with a decimal point. CLI::Range lets NaN pass, which is neither below nor above
 // anything.
-inline CLI::Validator number_from(double least, double most) {
-  const std::string range = limit_text(least) + " to " + limit_text(most);
-  const auto refuse = [least, most, range](const std::string& text) {
+inline CLI::Validator number_from(const core::NumberRange& range) {
+  const std::string limits = core::to_string(range);
+  const auto refuse = [range, limits](const std::string& text) {
     const core::ParsedNumber number = core::parse_number(text);
-    const bool good =
-        number.error == core::NumberError::none && number.value >= least && number.value <= most;
-    return good ? std::string() : text + " given, expected a number from " + range;
+    const bool good = number.error == core::NumberError::none && range.holds(number.value);
+    return good ? std::string() : text + " given, expected a number from " + limits;
   };
-  return {refuse, range};
+  return {refuse, limits};
+}
+inline CLI::Validator number_from(double least, double most) {
+  return number_from(core::NumberRange{least, most});
 }
 
 // What an integer option takes, whatever its type: CLI11 alone would read -1 as 2^64 - 1 for an

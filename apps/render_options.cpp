@@ -26,7 +26,7 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
               "(default: the scene's accuracy, else " +
                   core::number_text(renderer::kDefaultRaysPerCell) + " rays or " +
                   core::number_text(renderer::kDefaultSlicesPerColumn) + " slices)")
-          ->check(number_from(renderer::kSamplesPerCell.low, renderer::kSamplesPerCell.high));
+          ->check(number_from(renderer::kSamplesPerCell));
   CLI::Option* accuracy = add_accuracy_option(
       command, options.accuracy_grey,
       "Error allowed, RMS in grey levels: half of it is for effects left out, half for sampling, "
@@ -38,7 +38,7 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
                       "Milliseconds a frame may take from pose to pictures in memory (16 Hz: "
                       "62.5): the finest sampling that fits, and the error it reaches; with "
                       "--accuracy no finer than that needs (default: the scene's)")
-          ->check(number_from(renderer::kTimeBudgets_ms.low, renderer::kTimeBudgets_ms.high))
+          ->check(number_from(renderer::kTimeBudgets_ms))
           ->excludes(rays);
   CLI::Option* estimate =
       command.add_flag("--estimate-error", options.estimate_error,

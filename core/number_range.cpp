@@ -12,7 +12,7 @@ std::string to_string(const NumberRange& range) {
   if (range.above_low) return ("above " + low).append(has_high ? ", at most " + high : "");
   if (!has_high) return "at least " + low;
   if (!has_low) return "at most " + high;
-  return std::string(low).append(" to ").append(high);
+  return std::string(range.or_zero ? "0, or " : "").append(low).append(" to ").append(high);
 }
 
 void check_range(ProblemList& problems, std::string_view field, double value,

@@ -10,19 +10,22 @@
 
 namespace fanbeam::core {
 
-// Closed interval of allowed values, or with `above_low` the half-open (low, high].
+// Closed interval of allowed values, or with `above_low` the half-open (low, high]; with `or_zero`
+// also 0, which then stands for a default.
 struct NumberRange {
   double low = -std::numeric_limits<double>::max();
   double high = std::numeric_limits<double>::max();
   bool above_low = false;
+  bool or_zero = false;
 
   // False for NaN.
   bool holds(double value) const {
+    if (or_zero && value == 0.0) return true;
     return value >= low && value <= high && !(above_low && value == low);
   }
 };
 
-// "1 to 10", "at least 1", "above 1, at most 10".
+// "0.1 to 1e7", "at least 1", "above 1, at most 10", "0, or 0.3 to 10000".
 std::string to_string(const NumberRange& range);
 
 // Adds E-NONFINITE or E-RANGE with the range, and the unit behind it, when `value` lies outside.

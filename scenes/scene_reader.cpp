@@ -237,15 +237,11 @@ double read_accuracy_grey(ConfigTable& accuracy, const sensors::Sensor& sensor) 
 }
 
 void read_accuracy(ConfigTable accuracy, SceneDescription& scene) {
-  scene.rays_per_cell =
-      accuracy.number("rays_per_cell", {0.0, renderer::kSamplesPerCell.high}, 0.0);
-  if (scene.rays_per_cell > 0.0 && scene.rays_per_cell < renderer::kFewestRaysPerCell)
-    accuracy.error(core::ErrorClass::range, "rays_per_cell", core::number_text(scene.rays_per_cell),
-                   "0 or at least " + core::number_text(renderer::kFewestRaysPerCell));
+  scene.rays_per_cell = accuracy.number("rays_per_cell", renderer::kSamplesOrDefault, 0.0);
   scene.accuracy_grey = read_accuracy_grey(accuracy, scene.sensor);
   scene.time_budget_ms =
       accuracy.optional_number("time_budget_ms", renderer::kTimeBudgets_ms).value_or(0.0);
-  if (scene.time_budget_ms > 0.0 && scene.rays_per_cell > 0.0)
+  if (accuracy.has("time_budget_ms") && accuracy.has("rays_per_cell"))
     accuracy.error(core::ErrorClass::ref, "time_budget_ms", "beside rays_per_cell",
                    "one of the two: how finely, or how long");
   scene.caster = static_cast<renderer::CasterWish>(accuracy.choice(

@@ -84,11 +84,8 @@ void check(const SamplingWish& wish, core::ProblemList& problems) {
     return check(*sampling, problems);
   if (const auto* budget = std::get_if<TimeBudget>(&wish))
     return core::check_range(problems, "time budget", budget->ms, renderer::kTimeBudgets_ms, "ms");
-  const double per_cell = std::get<Samples>(wish).per_cell;
-  if (per_cell != 0.0 && !renderer::kSamplesPerCell.holds(per_cell))
-    problems.error(core::ErrorClass::range, {}, "samples per cell", core::number_text(per_cell),
-                   "0, or " + core::number_text(renderer::kSamplesPerCell.low) + " to " +
-                       core::number_text(renderer::kSamplesPerCell.high));
+  core::check_range(problems, "samples per cell", std::get<Samples>(wish).per_cell,
+                    renderer::kSamplesOrDefault);
 }
 
 sensors::Sensor with_settings(sensors::Sensor sensor, const SensorSettings& settings,

@@ -92,11 +92,13 @@ void BackgroundRenderer::render(const Letter& letter) noexcept {
   core::Picture8 bscope, cscope;
   try {
     const session::Session::Moment now = session_.now();
-    const renderer::Frame frame =
-        session_.render(now, pose_of(letter.pose), number_, {}, stop_.token());
     const std::shared_ptr<const scenes::Scene> scene = session_.scene(now);
+    const renderer::Products wanted{.cscope = scene->options.heights_shown};
+    const renderer::Frame frame =
+        session_.render(now, pose_of(letter.pose), number_, wanted, stop_.token());
     bscope = sensors::bscope_picture(scene->description.sensor, frame.bscope_grey);
-    cscope = sensors::cscope_picture(scene->description.sensor, frame.cscope_grey);
+    if (wanted.cscope)
+      cscope = sensors::cscope_picture(scene->description.sensor, frame.cscope_grey);
     events = events_of(frame.events);
   } catch (...) {
     status = status_of_exception(refusal);

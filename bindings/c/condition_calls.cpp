@@ -171,8 +171,7 @@ fanbeam_status fanbeam_set_samples(fanbeam_session* session, double samples_per_
   return bindings::guarded([&] {
     Arguments arguments;
     arguments.there(session, "session", kOpened);
-    if (samples_per_cell != 0.0)
-      arguments.number(samples_per_cell, "samples_per_cell", renderer::kSamplesPerCell, "(or 0)");
+    arguments.number(samples_per_cell, "samples_per_cell", renderer::kSamplesOrDefault);
     arguments.done();
     bindings::tell_warnings(session->held.set(session::Samples{samples_per_cell}));
     return FANBEAM_OK;

@@ -102,7 +102,8 @@ typedef struct fanbeam_setup {
                               measured when it is opened) */
   int32_t realisation;     /* FANBEAM_SAMPLE: one draw of speckle and noise; FANBEAM_EXPECTED: the
                               mean of all draws; FANBEAM_AS_SCENE */
-  int32_t reserved;
+  int32_t bscope_alone;    /* 1: no C-scope is ever asked for (it is refused), and effects that none
+                              but a C-scope shows are left out: docs/plan.md; 0: both are */
 } fanbeam_setup;
 
 /* `scene` is a folder with scene.toml, or that file. Takes seconds. Where it fails *session is NULL,
@@ -248,9 +249,9 @@ FANBEAM_API const char* fanbeam_layer_id_name(const fanbeam_layers* layers, cons
 FANBEAM_API void fanbeam_free_layers(fanbeam_layers* layers) FANBEAM_NOEXCEPT;
 
 /* Hands a pose to the session's thread and returns: takes no lock of the library's, waits for no
- * frame, allocates some hundred bytes. The thread renders both pictures of the newest pose; one that
- * a newer one overtakes before its turn is dropped. The first call starts the thread. A pose out of
- * range is refused here. */
+ * frame, allocates some hundred bytes. The thread renders both pictures (with bscope_alone that one)
+ * of the newest pose; one that a newer one overtakes before its turn is dropped. The first call
+ * starts the thread. A pose out of range is refused here. */
 FANBEAM_API fanbeam_status fanbeam_submit_pose(fanbeam_session* session,
                                                const fanbeam_pose* pose) FANBEAM_NOEXCEPT;
 

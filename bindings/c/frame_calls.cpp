@@ -17,6 +17,13 @@ using bindings::Outcome;
 
 namespace {
 
+void check_cscope(const fanbeam_session& session, bool asked, const std::string& name,
+                  Arguments& arguments) {
+  if (asked && !session.shows_cscope)
+    arguments.refuse(core::ErrorClass::ref, name, "a C-scope",
+                     "none, as it was opened with setup.bscope_alone");
+}
+
 void check_output(const fanbeam_output& output, const fanbeam_session* session,
                   Arguments& arguments) {
   arguments.bits(output.layers, FANBEAM_BSCOPE | FANBEAM_CSCOPE, "output.layers",
@@ -35,6 +42,9 @@ void check_output(const fanbeam_output& output, const fanbeam_session* session,
   arguments.room(output.bscope_W, output.bscope_W_count, shape.bscope(), "output.bscope_W");
   arguments.room(output.cscope_W_m3, output.cscope_W_m3_count, shape.cscope(),
                  "output.cscope_W_m3");
+  check_cscope(*session, output.cscope != nullptr, "output.cscope", arguments);
+  check_cscope(*session, output.cscope_W_m3 != nullptr, "output.cscope_W_m3", arguments);
+  check_cscope(*session, (output.layers & FANBEAM_CSCOPE) != 0, "output.layers", arguments);
 }
 
 renderer::Products wanted_of(const fanbeam_output& output) {
@@ -142,6 +152,7 @@ fanbeam_status fanbeam_latest_frame(fanbeam_session* session, fanbeam_frame* fra
     if (session != nullptr) {
       arguments.room(bscope, bscope_count, session->shape.bscope(), "bscope");
       arguments.room(cscope, cscope_count, session->shape.cscope(), "cscope");
+      check_cscope(*session, cscope != nullptr, "cscope", arguments);
     }
     arguments.done();
     const auto newest = session->background.outcomes().other_than(frame->number);

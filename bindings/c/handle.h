@@ -19,10 +19,12 @@ struct fanbeam_session {
                   fanbeam::core::ProblemList& problems)
       : held(scene, setup, problems),
         shape(fanbeam::bindings::shape_of(held.scene()->description.sensor)),
+        shows_cscope(setup.build.heights_shown),
         background(held, stop) {}
 
   fanbeam::session::Session held;
   const fanbeam::bindings::Shape shape;
+  const bool shows_cscope;
   fanbeam::core::StopSource stop;
 
   // A change here is made of what was set before: one after the other.

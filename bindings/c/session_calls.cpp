@@ -19,12 +19,6 @@ namespace {
 
 constexpr std::size_t kMostDataFolders = 256;
 
-void check_samples(Arguments& arguments, double samples_per_cell) {
-  if (samples_per_cell != 0.0)
-    arguments.number(samples_per_cell, "setup.samples_per_cell", renderer::kSamplesPerCell,
-                     "(or 0)");
-}
-
 std::vector<std::filesystem::path> folders_of(const fanbeam_setup& setup, Arguments& arguments) {
   std::vector<std::filesystem::path> folders;
   if (setup.data_folders == nullptr) {
@@ -78,8 +72,11 @@ session::Setup settings_of(const fanbeam_setup& setup, Arguments& arguments) {
     arguments.refuse(core::ErrorClass::range, "setup.threads", std::to_string(setup.threads),
                      "0 to 1024");
   settings.threads = setup.threads;
-  check_samples(arguments, setup.samples_per_cell);
-  arguments.reserved(setup.reserved, "setup.reserved");
+  arguments.number(setup.samples_per_cell, "setup.samples_per_cell", renderer::kSamplesOrDefault);
+  if (setup.bscope_alone != 0 && setup.bscope_alone != 1)
+    arguments.refuse(core::ErrorClass::range, "setup.bscope_alone",
+                     std::to_string(setup.bscope_alone), "0 or 1");
+  settings.build.heights_shown = setup.bscope_alone == 0;
   return settings;
 }
 

@@ -32,8 +32,8 @@ namespace fs = std::filesystem;
 // told together.
 py::dict checked_setup(const py::handle& scene, const py::handle& sensor, const py::handle& data,
                        const py::handle& effects, const py::handle& caster,
-                       const py::handle& sample, const py::handle& seed, const py::handle& threads,
-                       const fs::path& shipped) {
+                       const py::handle& sample, const py::handle& cscope, const py::handle& seed,
+                       const py::handle& threads, const fs::path& shipped) {
   core::ProblemList problems;
   py::dict setup;
   setup["shipped"] = shipped;
@@ -55,6 +55,7 @@ py::dict checked_setup(const py::handle& scene, const py::handle& sensor, const 
   setup["effects"] = wishes;
   setup["caster"] = word;
   setup["sample"] = drawn;
+  setup["cscope"] = value_of<bool>(cscope, "cscope", problems);
   setup["seed"] = value_of<std::uint64_t>(seed, "seed", problems);
   setup["threads"] = number_of<int>(threads, "threads", problems, {0, 1024});
   problems.throw_if_errors();
@@ -65,14 +66,15 @@ py::dict checked_setup(const py::handle& scene, const py::handle& sensor, const 
 std::unique_ptr<Scene> open(const fs::path& scene, const fs::path& shipped,
                             const std::vector<fs::path>& data, const fs::path& sensor,
                             const std::string& effects, const std::string& caster,
-                            std::optional<bool> sample, std::uint64_t seed, int threads,
-                            bool keeps_time_budget, py::list& warnings) {
+                            std::optional<bool> sample, bool cscope, std::uint64_t seed,
+                            int threads, bool keeps_time_budget, py::list& warnings) {
   refuse_in_fork();
   session::Setup setup;
   setup.shipped = shipped;
   setup.data_folders = data;
   setup.sensor = sensor;
   setup.build.read = {.power = true, .labels = true};  // any frame may be asked for both
+  setup.build.heights_shown = cscope;
   setup.sample = sample;
   setup.keeps_time_budget = keeps_time_budget;
   setup.seed = seed;
@@ -110,6 +112,12 @@ py::dict render(const Scene& scene, const py::tuple& pose, const py::handle& fra
   shown.layers = value_of<bool>(layers, "layers", problems);
   shown.cscope_layers = value_of<bool>(cscope_layers, "cscope_layers", problems);
   const bool labelled = value_of<bool>(labels, "labels", problems);
+  const std::pair<const char*, bool> with_heights[] = {
+      {"cscope", shown.cscope}, {"cscope_layers", shown.cscope_layers}, {"labels", labelled}};
+  for (const auto& [field, asked] : with_heights)
+    if (asked && !session.opened()->options.heights_shown)
+      problems.error(core::ErrorClass::ref, {}, field, "True",
+                     "False, as the scene was opened with cscope=False");
   problems.throw_if_errors();
   renderer::Products wanted = shown;
   wanted.bscope = shown.bscope || labelled;
@@ -218,14 +226,15 @@ py::dict facts(const Scene& scene) {
 
 void add_scene(py::module_& module) {
   module.def("checked_setup", &checked_setup, py::arg("scene"), py::arg("sensor"), py::arg("data"),
-             py::arg("effects"), py::arg("caster"), py::arg("sample"), py::arg("seed"),
-             py::arg("threads"), py::arg("shipped"));
+             py::arg("effects"), py::arg("caster"), py::arg("sample"), py::arg("cscope"),
+             py::arg("seed"), py::arg("threads"), py::arg("shipped"));
   py::class_<Scene> scene(module, "Scene", "Of fanbeam.Scene, which documents it.");
   add_conditions(scene);
   scene
       .def(py::init(&open), py::arg("scene"), py::arg("shipped"), py::arg("data"),
            py::arg("sensor"), py::arg("effects"), py::arg("caster"), py::arg("sample"),
-           py::arg("seed"), py::arg("threads"), py::arg("keeps_time_budget"), py::arg("warnings"))
+           py::arg("cscope"), py::arg("seed"), py::arg("threads"), py::arg("keeps_time_budget"),
+           py::arg("warnings"))
       .def("own_budget", &own_budget)
       .def("render", &render, py::arg("pose"), py::arg("frame_index"), py::arg("bscope"),
            py::arg("cscope"), py::arg("layers"), py::arg("cscope_layers"), py::arg("labels"))

@@ -108,8 +108,7 @@ py::list set_sensor(const Scene& scene, const py::handle& tilt_deg, const py::ha
 session::SamplingWish wish_of(const Scene& scene, const std::string& kind, double value,
                               core::ProblemList& problems) {
   if (kind == "samples") {
-    if (value != 0.0)
-      core::check_range(problems, "samples_per_cell", value, renderer::kSamplesPerCell);
+    core::check_range(problems, "samples_per_cell", value, renderer::kSamplesOrDefault);
     return session::Samples{value};
   }
   if (kind == "accuracy") {

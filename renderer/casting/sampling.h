@@ -57,6 +57,9 @@ inline constexpr double kDefaultRaysPerCell = 4.0;
 inline constexpr double kFewestRaysPerCell = 0.3;
 // That may be asked for, of rays and of slices.
 inline constexpr core::NumberRange kSamplesPerCell{kFewestRaysPerCell, 10000.0};
+// The same where 0 asks for the caster's default.
+inline constexpr core::NumberRange kSamplesOrDefault{
+    .low = kSamplesPerCell.low, .high = kSamplesPerCell.high, .or_zero = true};
 
 // `rays_per_cell` rays per range cell and column, split between azimuth and range in the proportion
 // that measured best (docs/performance.md): azimuth first.

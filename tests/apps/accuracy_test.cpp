@@ -303,6 +303,6 @@ TEST_CASE("A scene's grey_levels is --accuracy, its time_budget_ms --time-budget
   scene_with("[accuracy]\ntime_budget_ms = 5000\nrays_per_cell = 0.2\n");
   const Result wrong = run_fanbeam("validate " + quoted(folder.path()));
   CHECK(wrong.exit_code == 3);
-  for (const char* part : {"one of the two", "0 or at least 0.3"})
+  for (const char* part : {"one of the two", "0, or 0.3 to 10000"})
     CHECK(wrong.output.find(part) != std::string::npos);
 }

@@ -115,6 +115,50 @@ TEST_CASE("Watts through C hold the noise that a display hides", "[bindings]") {
   CHECK(output.noise_W > 0.0);
 }
 
+// A trace of snow may raise a whole obstacle in a C-scope of mode shadow: only there it is simulated.
+TEST_CASE("A session of B-scopes alone is planned for them, and refuses C-scopes", "[bindings]") {
+  const TemporaryFolder folder;
+  const std::string text =
+      tests::replaced(tests::kSmallScene, "[weather]", "[weather]\nsnow_rate_mm_per_h = 0.0001") +
+      "\n[display]\ncscope_mode = \"shadow\"\n";
+  fanbeam_setup setup = tests::c_setup();
+  setup.bscope_alone = 1;
+  const CSession c = tests::c_opened(folder, text, setup);
+  const CSession both = tests::c_opened(folder, text);
+  const fanbeam_pose pose = tests::flown(c);
+  const Buffers untouched(tests::facts_of(c));
+  const auto bscope_of = [&](const CSession& from) {
+    Buffers buffers = untouched;
+    fanbeam_output output = buffers.output();
+    output.cscope = nullptr;
+    output.cscope_W_m3 = nullptr;
+    REQUIRE(fanbeam_render(from.get(), &pose, 1, &output) == FANBEAM_OK);
+    return buffers;
+  };
+  session::Setup same;
+  same.build.heights_shown = false;
+  const renderer::Frame frame =
+      opened(folder, same)->render(tests::core_pose(pose), 1, {.cscope = false});
+  const Buffers alone = bscope_of(c);
+  CHECK((alone.bscope_W == frame.bscope_W));
+  CHECK_FALSE((alone.bscope_W == bscope_of(both).bscope_W));
+
+  Buffers buffers = untouched;
+  fanbeam_output output = buffers.output();
+  output.layers = FANBEAM_BSCOPE | FANBEAM_CSCOPE;
+  CHECK(fanbeam_render(c.get(), &pose, 1, &output) == FANBEAM_BAD_INPUT);
+  CHECK(tests::problems_told() == 3);
+  for (const char* asked : {"output.cscope = ", "output.cscope_W_m3 = ", "output.layers = "})
+    CHECK(told(std::string("E-REF ") + asked + "a C-scope: expected none"));
+  fanbeam_frame newest = sized<fanbeam_frame>();
+  CHECK(tests::awaited(c.get(), newest, buffers) == FANBEAM_BAD_INPUT);
+  CHECK((buffers == untouched));
+  REQUIRE(fanbeam_submit_pose(c.get(), &pose) == FANBEAM_OK);
+  buffers.cscope = {};  // NULL from here on
+  CHECK(tests::awaited(c.get(), newest, buffers) == FANBEAM_OK);
+  CHECK((buffers.bscope == alone.bscope));
+}
+
 TEST_CASE("The scene's own flight comes out in degrees of freedom that lead back to it",
           "[bindings]") {
   const TemporaryFolder folder;

@@ -147,13 +147,13 @@ TEST_CASE("Opening tells every problem of the setup, or of the scene, at once", 
   setup.threads = -1;
   setup.samples_per_cell = std::nan("");
   setup.realisation = 9;
-  setup.reserved = 1;
+  setup.bscope_alone = 2;
   CHECK(refused(tests::kSmallScene, setup) == FANBEAM_BAD_INPUT);
   INFO(fanbeam_last_error());
   CHECK(tests::problems_told() == 8);
   for (const char* field :
        {"shipped_folder", "data_folders", "caster = \"beams\"", "effects = \"+frogs\"",
-        "threads = -1", "samples_per_cell = nan", "realisation = 9", "reserved = 1"})
+        "threads = -1", "samples_per_cell = nan", "realisation = 9", "bscope_alone = 2"})
     CHECK(told(std::string("setup.") + field));
   // What is no realisation forbids no draws.
   setup = tests::c_setup();

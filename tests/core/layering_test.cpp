@@ -1,8 +1,9 @@
 // The rules of the house: which folder may include which, where third-party libraries may appear,
-// how long a file may grow. The checker runs over the checkout, and over a tree of offenders to
-// show that it would notice.
+// what a folder may not do, how long a file may grow. The checker runs over the checkout, and over a
+// tree of offenders to show that it would notice.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -75,6 +76,23 @@ constexpr Confined kConfined[] = {
     {"nanoflann\\.hpp", "signal"},       {"boost/(asio|beast).*", "live"},
 };
 
+// What a folder's files may not include, and the rule that says so.
+struct Barred {
+  const char* folder;
+  const char* header_pattern;
+  const char* rule;
+};
+constexpr Barred kBarred[] = {
+    {"renderer", R"(fstream|core/files\.h)", "the renderer reads no files"},
+    {"scenes", R"(renderer/(accuracy/|frame_renderer|planned_frames|casting/(?!sampling\.h)).*)",
+     "scenes cast no rays"},
+};
+
+// Names that print, and those of terrain::RayScene that cast.
+constexpr const char* kPrinters[] = {"cout",  "cerr",    "clog",   "printf", "fprintf",   "puts",
+                                     "fputs", "putchar", "perror", "spdlog", "fmt::print"};
+constexpr const char* kCasts[] = {"intersect", "occluded", "find_occluded"};
+
 // How third-party types look when they get into a header without an include, as a forward
 // declaration.
 constexpr const char* kForeignTypes =
@@ -101,6 +119,17 @@ bool is_private_header(std::string_view name) { return name.ends_with("_private.
 
 bool matches(const std::string& text, const char* pattern) {
   return std::regex_match(text, std::regex(pattern));
+}
+
+// As a whole word.
+bool names(const std::string& code, std::string_view name) {
+  const auto in_word = [&](std::size_t at) {
+    return at < code.size() &&
+           (code[at] == '_' || std::isalnum(static_cast<unsigned char>(code[at])));
+  };
+  for (std::size_t at = code.find(name); at != std::string::npos; at = code.find(name, at + 1))
+    if (!in_word(at - 1) && !in_word(at + name.size())) return true;
+  return false;
 }
 
 // Nothing of ours reads its headers but itself: they may show the library that it is about.
@@ -135,8 +164,17 @@ void check_foreign_include(const Source& source, const std::string& included, Na
         (source.folder != confined.folder || source.header))
       violations.insert(source.name + " includes <" + included + ">, which belongs in sources of " +
                         confined.folder);
-  if (source.folder == "renderer" && included == "fstream")
-    violations.insert(source.name + " includes <fstream>: the renderer reads no files");
+}
+
+void check_code(const Source& source, const std::string& code, Names& violations) {
+  if (source.folder != "apps")
+    for (const char* name : kPrinters)
+      if (names(code, name))
+        violations.insert(source.name + " names " + name + ": libraries never print");
+  if (source.folder == "scenes")
+    for (const char* name : kCasts)
+      if (names(code, name))
+        violations.insert(source.name + " names " + name + ": scenes cast no rays");
 }
 
 // The line without comments; `inside` tells whether it begins in one of C's.
@@ -154,10 +192,6 @@ std::string code_of(const std::string& line, bool& inside) {
 void check_source(const Source& source, const std::vector<std::string>& lines, Names& violations) {
   static const std::regex kInclude(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"].*)");
   static const std::regex kForeign(kForeignTypes);
-  if (source.folder == "renderer" && !source.header)
-    for (const std::string& line : lines)
-      if (line.starts_with("#include \"core/files.h\""))
-        violations.insert(source.name + " includes core/files.h: the renderer reads no files");
   bool in_comment = false;
   for (const std::string& line : lines) {
     std::smatch parts;
@@ -167,7 +201,13 @@ void check_source(const Source& source, const std::vector<std::string>& lines, N
         check_foreign_include(source, parts[2], violations);
       else
         check_own_include(source, parts[2], violations);
-    } else if (source.header && !is_end(source)) {
+      for (const Barred& barred : kBarred)
+        if (source.folder == barred.folder && matches(parts[2], barred.header_pattern))
+          violations.insert(source.name + " includes " + parts[2].str() + ": " + barred.rule);
+      continue;
+    }
+    check_code(source, code, violations);
+    if (source.header && !is_end(source)) {
       if (std::regex_search(code, parts, kForeign))
         violations.insert(source.name + " shows the type " + parts[1].str() + " in a header");
     }
@@ -186,7 +226,9 @@ void check_file(const fs::path& root, const fs::path& file, Names& violations) {
   const bool code = extension == ".h" || extension == ".cpp";
   const bool build_file = file.filename() == "CMakeLists.txt" || extension == ".cmake" ||
                           file.filename() == "CMakePresets.json" || relative == "dev";
-  if (!code && !build_file) return;
+  const bool script =
+      extension == ".py" || extension == ".sh" || extension == ".js" || extension == ".html";
+  if (!code && !build_file && !script) return;
 
   const std::vector<std::string> lines = lines_of(file);
   if (lines.size() > kMostLines)
@@ -261,6 +303,9 @@ TEST_CASE("The layering check accepts what the design allows", "[layering]") {
   tree.add("renderer/cast.cpp", "#include \"sensors/sensor.h\"\n#include \"terrain/mesh.h\"\n");
   tree.add("tracking/filter.h", "#include \"signal/cfar.h\"\n");
   tree.add("apps/options.h", "#include <CLI/CLI.hpp>\n");
+  tree.add("apps/main.cpp", "#include <cstdio>\nint main() { std::puts(\"\"); }\n");
+  tree.add("core/text.cpp", "/* as\nprintf does */ std::snprintf(a, 1, b);  // or cout\n");
+  tree.add("scenes/scene.cpp", "#include \"renderer/casting/sampling.h\"\nint intersections;\n");
   tree.add("bindings/c/fanbeam.h",
            "/* of toml\n * files */\n#include <stddef.h>\n#include <stdint.h>\n");
   tree.add("bindings/c/calls.cpp", "#include \"bindings/c/fanbeam.h\"\n#include \"session/a.h\"\n");
@@ -322,9 +367,22 @@ TEST_CASE("The layering check notices each kind of offence", "[layering]") {
       {"renderer/a_private.h", "#include <embree3/rtcore.h>\n", "belongs in sources of terrain"},
       {"renderer/a.cpp", "#include <fstream>\n", "the renderer reads no files"},
       {"renderer/a.cpp", "#include \"core/files.h\"\n", "the renderer reads no files"},
+      {"renderer/a.h", "#include \"core/files.h\"\n", "the renderer reads no files"},
+      {"scenes/a.cpp", "#include \"renderer/casting/caster.h\"\n", "scenes cast no rays"},
+      {"scenes/a.cpp", "#include \"renderer/frame_renderer.h\"\n", "scenes cast no rays"},
+      {"scenes/a.cpp", "  rays.find_occluded(active, packet);\n", "scenes cast no rays"},
+      {"scenes/a.cpp", "  if (rays->occluded(from_m, to_m, 0.1))\n", "scenes cast no rays"},
+      {"terrain/a.cpp", "  std::cout << 1;\n", "libraries never print"},
+      {"session/a.h", "inline void a() { std::fprintf(stderr, \"a\"); }\n",
+       "libraries never print"},
+      {"measure/a.cpp", "  fmt::print(\"a\");\n", "libraries never print"},
+      {"live/a.cpp", "puts(\"a\");\n", "libraries never print"},
+      {"bindings/c/a.cpp", "  spdlog::info(\"a\");\n", "libraries never print"},
       {"CMakeLists.txt", "add_compile_options(-O3 -ffast-math)\n", "IEEE"},
       {"core/a.cpp", "#pragma GCC optimize(\"fast-math\")\n", "IEEE"},
       {"tests/core/a.cpp", std::string(kMostLines + 1, '\n'), "601 lines"},
+      {"bindings/python/a.py", std::string(kMostLines + 1, '\n'), "601 lines"},
+      {"live/page.html", std::string(kMostLines + 1, '\n'), "601 lines"},
   }));
   const SyntheticTree tree("layering_bad");
   tree.add(offence.file, offence.text);

@@ -1,10 +1,11 @@
-"""Where the program and the shared data are, for tests that hold the package against them."""
+"""Where the program and the shared data are, for tests that hold the package against them, and scenes for them all."""
 
 import os
 import threading
 import time
 from pathlib import Path
 
+import fanbeam
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -18,6 +19,16 @@ def program():
 @pytest.fixture(scope="session")
 def root():
     return ROOT
+
+
+@pytest.fixture(scope="module")
+def grass():
+    return fanbeam.Scene.open("flat-grass")
+
+
+@pytest.fixture(scope="module")
+def runway():
+    return fanbeam.Scene.open("braunschweig-26")
 
 
 @pytest.fixture

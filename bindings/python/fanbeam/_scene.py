@@ -259,6 +259,7 @@ class Scene:
         effects: str = "",
         caster: str = "",
         sample: bool | None = None,
+        cscope: bool = True,
         seed: int = 0,
         threads: int = 0,
     ) -> Scene:
@@ -269,11 +270,14 @@ class Scene:
         effects  "all", "none", "+rain,-gas": instead of what the scene calls for
         caster   "rays", "profile" or "auto", instead of the scene's
         sample   True: frames are one draw of speckle and noise; False: the mean of all draws
+        cscope   False: no C-scope is ever asked for, nor labels, and effects that only it shows are left out
         seed     of everything random
         threads  at most, for a frame; 0: all
         """
         shipped = _paths.shipped()
-        opened = _core.checked_setup(scene, sensor, data, effects, caster, sample, seed, threads, shipped)
+        opened = _core.checked_setup(
+            scene, sensor, data, effects, caster, sample, cscope, seed, threads, shipped
+        )
         opened["data"] = _paths.data_folders(data)
         warnings: list[Any] = []
         opened_scene = Scene(_Settings(opened), warnings)
@@ -431,16 +435,17 @@ class Scene:
         *,
         frame_index: int | None = None,
         bscope: bool = True,
-        cscope: bool = True,
+        cscope: bool | None = None,
         layers: bool = False,
         cscope_layers: bool = False,
         labels: bool = False,
     ) -> Frame:
         """What the radar sees from a Pose, or in a frame of the scene's flight.
 
-        Frames below 0 are counted from the end. What is not wanted is not computed. `frame_index` keys
-        what is random: that of the flight, or 0, unless given. A pose the scene's plan was not made for
-        takes tens of milliseconds more and has the event "outside_volume".
+        Frames below 0 are counted from the end. What is not wanted is not computed; `cscope` is wanted
+        unless the scene was opened without. `frame_index` keys what is random: that of the flight, or 0,
+        unless given. A pose the scene's plan was not made for takes tens of milliseconds more and has the
+        event "outside_volume".
         """
         number = 0
         if isinstance(at, Pose):
@@ -450,6 +455,8 @@ class Scene:
             pose = self.trajectory[number]
         if frame_index is None:
             frame_index = number
+        if cscope is None:
+            cscope = self._told.opened["cscope"]
         made = self._core.render(pose._numbers(), frame_index, bscope, cscope, layers, cscope_layers, labels)
         if labels:
             made["labels"] = json.loads(made["labels"])
