@@ -9,6 +9,7 @@
 #include "core/constants.h"
 #include "renderer/plan/largest_echo.h"
 #include "renderer/stages/point_targets.h"
+#include "scenes/sight_fan.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "sensors/antenna/column_place.h"
 
@@ -126,7 +127,8 @@ renderer::SceneFacts sequence_facts(const renderer::SceneFacts& scene, const Sig
   const sensors::Sensor& sensor = scene.sensor;
   renderer::FrameSight sight;
   bool all_mirrors = mirrors_are_seen(scene, sight);
-  for (int frame = 0; frame < frames; ++frame) {
+  // Most flights end where the most is seen.
+  for (int frame = frames - 1; frame >= 0; --frame) {
     const renderer::FramePose pose = pose_of(frame);
     const sensors::AntennaFrame antenna = renderer::antenna_of(sensor, pose);
     if (!all_mirrors) {

@@ -1,8 +1,9 @@
 // What single frames, and a whole sequence, can see of a scene: the geometry behind its plans.
 //
 // A sequence sees what any of its frames sees. Frames are looked at one after the other until all
-// that the scene has has been seen: microseconds where the first frame sees it, up to a millisecond
-// a frame of a large scene that holds a thing that no frame sees. Heights stay those of the scene.
+// that the scene has has been seen, from the last frame on: microseconds where that one sees it, up to
+// two milliseconds a frame of a large scene that holds a thing that no frame sees. Heights stay those
+// of the scene.
 #pragma once
 
 #include <functional>
