@@ -16,8 +16,8 @@
 
 namespace fanbeam::scenes {
 
-// `scene`: facts of all there is. Rain cells beside the fan count where mirrored rays, or those to a
-// target beside it, may pass them.
+// `scene`: facts of all there is. Rain cells beside the fan count where rays that corners mirror, or
+// those to a target beside it, may pass them.
 renderer::FrameSight frame_sight(const renderer::SceneFacts& scene, const SightMap& map,
                                  const std::vector<renderer::PointTarget>& targets,
                                  const sensors::AntennaFrame& antenna, double time_s);
