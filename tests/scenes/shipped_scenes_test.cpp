@@ -71,6 +71,7 @@ TEST_CASE("Keflavik flies the recorded attitude over the simulator's terrain", "
   // Lava mirrors into lava from low above it, and nowhere before. With the shore that faces the antenna
   // and is the steepest ground of all, double bounce ran for 1800 frames.
   CHECK(keflavik->plan.runs(core::EffectId::double_bounce));
+  CHECK(keflavik->caster.chosen == renderer::CasterKind::profile);
   for (const int frame : {0, 120, 240})
     CHECK_FALSE(scenes::frame_plan(*keflavik, frame).runs(core::EffectId::double_bounce));
 }
