@@ -48,8 +48,8 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
   add_caster_option(
       command, options.caster,
       "rays: any geometry, the reference; profile: azimuth slices in closed form, over "
-      "buildings as close in half to all of the rays' time; auto: slices where they "
-      "apply and pay (default: the scene's, else auto)");
+      "buildings or with double bounce as close in half to all of the rays' time; auto: slices "
+      "where they apply and pay (default: the scene's, else auto)");
   command
       .add_flag(
           "--reference", options.reference,

@@ -17,7 +17,7 @@ core::EffectPlan frame_plan(const Scene& scene, int frame_index);
 
 // Whether the scene's plan holds at a pose: inside a stated flight volume, or, where the plan was
 // made for the frames of a flight, wherever nothing is seen that those frames do not see, at their
-// heights, and verticals turn no more than the bounds of the losses count on. Up to a millisecond in a large scene.
+// heights, and verticals turn no more than the bounds of the losses count on. Up to two milliseconds in a large scene.
 bool planned_for(const Scene& scene, const renderer::FramePose& pose);
 // The plan of a frame at any other pose: of all that the scene has, with that pose in its volume.
 core::EffectPlan plan_alone(const Scene& scene, const renderer::FramePose& pose);

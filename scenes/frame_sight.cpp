@@ -9,6 +9,7 @@
 #include "core/constants.h"
 #include "renderer/plan/largest_echo.h"
 #include "renderer/stages/point_targets.h"
+#include "scenes/sight_fan.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "sensors/antenna/column_place.h"
 
@@ -28,21 +29,27 @@ std::vector<RainCell> those(const std::vector<RainCell>& cells, const May& may) 
   return result;
 }
 
-// Whether anything is seen past the fan: by mirrored rays, or a target in the antenna's side lobes, or
-// so steeply above or below that its beam reaches far aside.
+// Whether anything is seen past the fan: by rays that corners mirror, anywhere within range; or a
+// target in the antenna's side lobes, or so steeply above or below that its beam reaches far aside.
+// The mirror image of a target is no third: its echo has the losses of the straight way to the target
+// (ground_multipath.h), which lies in the fan when the target does.
 bool sees_beside(const renderer::SceneFacts& facts) {
   const sensors::Sensor& sensor = facts.sensor;
-  return renderer::has_mirrored_echo(facts) ||
+  return renderer::corners_possible(facts) ||
          (facts.has_point_targets &&
           sensors::azimuth_reach_rad(sensor, sensors::steepest_rad(sensor)) >
               fan_margin_rad(sensor));
 }
 
-// Whether rays of the fan, and with `beside` others as well, may pass the cell.
+// Whether rays of the fan, and with `beside` others as well, may pass the cell. A way out, by mirrors
+// and back is twice as long as the range of its echo, and goes no farther away than half of that.
 bool may_pass(const RainCell& cell, const SightMap& map, const sensors::Sensor& sensor,
               const sensors::AntennaFrame& antenna, bool beside) {
+  constexpr double kRounding_m = 1.0;
+  const double shown_m =
+      sensor.range.maximum_m() + renderer::kSpreadCells * sensor.range.cell_m + kRounding_m;
   const double away_m = glm::distance(cell.centre_m, glm::dvec2(antenna.position_m));
-  if (away_m > sensor.range.maximum_m() + reach_m(cell)) return false;
+  if (away_m > shown_m + reach_m(cell)) return false;
   return beside || map.fan_may_meet(antenna, sensor, cell.centre_m, reach_m(cell));
 }
 
@@ -126,7 +133,8 @@ renderer::SceneFacts sequence_facts(const renderer::SceneFacts& scene, const Sig
   const sensors::Sensor& sensor = scene.sensor;
   renderer::FrameSight sight;
   bool all_mirrors = mirrors_are_seen(scene, sight);
-  for (int frame = 0; frame < frames; ++frame) {
+  // Most flights end where the most is seen.
+  for (int frame = frames - 1; frame >= 0; --frame) {
     const renderer::FramePose pose = pose_of(frame);
     const sensors::AntennaFrame antenna = renderer::antenna_of(sensor, pose);
     if (!all_mirrors) {

@@ -1,8 +1,9 @@
 // What single frames, and a whole sequence, can see of a scene: the geometry behind its plans.
 //
 // A sequence sees what any of its frames sees. Frames are looked at one after the other until all
-// that the scene has has been seen: microseconds where the first frame sees it, up to a millisecond
-// a frame of a large scene that holds a thing that no frame sees. Heights stay those of the scene.
+// that the scene has has been seen, from the last frame on: microseconds where that one sees it, up to
+// two milliseconds a frame of a large scene that holds a thing that no frame sees. Heights stay those
+// of the scene.
 #pragma once
 
 #include <functional>
@@ -15,8 +16,8 @@
 
 namespace fanbeam::scenes {
 
-// `scene`: facts of all there is. Rain cells beside the fan count where mirrored rays, or those to a
-// target beside it, may pass them.
+// `scene`: facts of all there is. Rain cells beside the fan count where rays that corners mirror, or
+// those to a target beside it, may pass them.
 renderer::FrameSight frame_sight(const renderer::SceneFacts& scene, const SightMap& map,
                                  const std::vector<renderer::PointTarget>& targets,
                                  const sensors::AntennaFrame& antenna, double time_s);

@@ -5,11 +5,12 @@ namespace fanbeam::scenes {
 renderer::CasterChoice scene_caster(const SceneDescription& scene,
                                     const std::optional<renderer::CasterWish>& asked,
                                     const FlightVolume& volume, const terrain::Solids& solids,
-                                    core::ProblemList& problems) {
+                                    const core::EffectPlan& plan, core::ProblemList& problems) {
   const sensors::Scan& scan = scene.sensor.scan;
   const renderer::CasterFacts facts{
       .buildings = solids.prisms.size(),
       .others = solids.others.size(),
+      .double_bounce = plan.runs(core::EffectId::double_bounce),
       .stabilised = scan.stabilised,
       .plane_scan = scan.surface == sensors::ScanSurface::plane,
       .least_vertical_turn_rad = volume.least_vertical_turn_rad,

@@ -1,6 +1,7 @@
 // Rays or slices for a scene: its facts for renderer::choose_caster.
 #pragma once
 
+#include "core/effect_plan.h"
 #include "core/errors.h"
 #include "renderer/plan/caster_choice.h"
 #include "scenes/description.h"
@@ -9,12 +10,12 @@
 
 namespace fanbeam::scenes {
 
-// For the whole flight volume, so that the choice does not depend on which frames are rendered.
-// `asked` stands for the scene's own wish. Slices forced where they cannot show the scene become an
+// For the whole flight volume, so that the choice does not depend on which frames are rendered; without
+// a `plan` as if no double bounce ran. `asked` stands for the scene's own wish. Slices forced where they cannot show the scene become an
 // error in `problems`, at the scene's line where that is what forces them.
 renderer::CasterChoice scene_caster(const SceneDescription& scene,
                                     const std::optional<renderer::CasterWish>& asked,
                                     const FlightVolume& volume, const terrain::Solids& solids,
-                                    core::ProblemList& problems);
+                                    const core::EffectPlan& plan, core::ProblemList& problems);
 
 }  // namespace fanbeam::scenes

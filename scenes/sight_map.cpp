@@ -5,8 +5,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "core/constants.h"
-#include "sensors/antenna/column_place.h"
+#include "scenes/relief.h"
+#include "scenes/sight_fan.h"
 
 namespace fanbeam::scenes {
 namespace {
@@ -14,12 +14,9 @@ namespace {
 using terrain::HeightField;
 
 constexpr double kTile_m = 128.0;
-// Floats of the ray caster and rounding (ray_scene.h: 25 mm); a car's antenna is half a metre up.
-constexpr double kMargin_m = 1.0, kRayError_m = 0.05;
+constexpr double kMargin_m = 1.0;
 // An echo is spread over half the way to its neighbours at most, from a little beyond the gate too.
 constexpr double kMarginCells = 8.0;
-// What the fan may be wider than field of view and beam: sub-columns come in whole groups.
-constexpr double kMarginColumns = 5.0;
 
 // Steepest of the two triangles of a cell, squared, times the spacing squared.
 double steepest_square(const HeightField& ground, int i, int j) {
@@ -35,93 +32,7 @@ double farthest_m(const sensors::Sensor& sensor) {
   return sensor.range.maximum_m() + kMarginCells * sensor.range.cell_m + kMargin_m;
 }
 
-// Directions of the fan and a sphere: false only where they certainly miss each other.
-class Fan {
- public:
-  Fan(const sensors::AntennaFrame& antenna, const sensors::Sensor& sensor)
-      : Fan(antenna, half_of(sensor), sensor.scan.surface) {}
-  Fan(const sensors::AntennaFrame& antenna, double half_rad, sensors::ScanSurface surface)
-      : antenna_(antenna),
-        cone_(surface == sensors::ScanSurface::cone),
-        all_round_(half_rad >= core::kPi / 2),
-        sine_(std::sin(std::min(half_rad, core::kPi / 2))),
-        cosine_(std::cos(std::min(half_rad, core::kPi / 2))) {}
-
-  static double half_of(const sensors::Sensor& sensor) {
-    return sensor.scan.field_of_view_rad / 2 + fan_margin_rad(sensor);
-  }
-
-  bool may_meet(const glm::dvec3& centre_m, double radius_m) const {
-    if (all_round_) return true;
-    const glm::dvec3 to_m = centre_m - antenna_.position_m;
-    const double right_m = std::abs(glm::dot(to_m, antenna_.right));
-    if (cone_) return right_m <= (glm::length(to_m) + radius_m) * sine_ + radius_m;
-    // Distance from the nearer side of the wedge.
-    return right_m * cosine_ - glm::dot(to_m, antenna_.forward) * sine_ <= radius_m;
-  }
-
-  // The same of all that a vertical column holds within `far_m`.
-  bool may_meet_column(const glm::dvec2& centre_m, double radius_m, double far_m) const {
-    if (all_round_) return true;
-    const glm::dvec2 to_m = centre_m - glm::dvec2(antenna_.position_m);
-    const double right_m = std::abs(glm::dot(to_m, glm::dvec2(antenna_.right)));
-    const double right_up_m = far_m * std::abs(antenna_.right.z);
-    if (cone_) return right_m - right_up_m - radius_m <= far_m * sine_;
-    return right_m * cosine_ - glm::dot(to_m, glm::dvec2(antenna_.forward)) * sine_ <=
-           radius_m + right_up_m * cosine_ + far_m * std::abs(antenna_.forward.z) * sine_;
-  }
-
- private:
-  sensors::AntennaFrame antenna_;
-  bool cone_, all_round_;
-  double sine_, cosine_;
-};
-
-// How far ground whose facets rise at most `slope` turns a ray of the beam to the side: the mirrored
-// direction is d + 2 sin(psi) n, the level part of d at least cos(steepest ray), that of n at most
-// sin(slope). Pi where it may turn it anywhere.
-double largest_turn_rad(const sensors::AntennaFrame& antenna, const sensors::Sensor& sensor,
-                        double slope_rad) {
-  const double tilt_rad = std::acos(std::clamp(antenna.up.z, -1.0, 1.0));
-  const double ray_rad = sensors::steepest_rad(sensor) + tilt_rad;
-  const double grazing_rad = ray_rad + slope_rad;
-  if (grazing_rad >= core::kPi / 2) return core::kPi;
-  const double sine = 2.0 * std::sin(grazing_rad) * std::sin(slope_rad) / std::cos(ray_rad);
-  return sine < 1.0 ? std::asin(sine) : core::kPi;
-}
-
-// The fan's azimuths in the scene's horizontal, which is what level ground keeps of a ray that it
-// mirrors: those of the antenna turned level under its heading, wider by what the turn back moves
-// the steepest ray aside, and by `wider_rad`. The azimuth a of a ray on a cone is atan(tan a / cos e)
-// there.
-Fan level_fan(const sensors::AntennaFrame& antenna, const sensors::Sensor& sensor,
-              double wider_rad) {
-  sensors::AntennaFrame level;
-  level.position_m = antenna.position_m;
-  const glm::dvec2 heading(antenna.forward);
-  const double steepest = sensors::steepest_rad(sensor);
-  double half_rad = core::kPi;
-  if (steepest < core::kPi / 2 && glm::length(heading) > 0.0) {
-    level.forward = glm::dvec3(glm::normalize(heading), 0.0);
-    level.right = {level.forward.y, -level.forward.x, 0.0};
-    // |d - d0| of a direction and its turned one: 2 sin(turn / 2), the trace being 1 + 2 cos(turn).
-    const double chord =
-        std::sqrt(std::max(0.0, 3.0 - glm::dot(antenna.forward, level.forward) -
-                                    glm::dot(antenna.right, level.right) - antenna.up.z));
-    const double moved = chord / std::cos(steepest);
-    half_rad = Fan::half_of(sensor);
-    if (sensor.scan.surface == sensors::ScanSurface::cone && half_rad < core::kPi / 2)
-      half_rad = std::atan(std::tan(half_rad) / std::cos(steepest));
-    half_rad += wider_rad + (moved < 1.0 ? std::asin(moved) : core::kPi);
-  }
-  return {level, half_rad, sensors::ScanSurface::plane};
-}
-
 }  // namespace
-
-double fan_margin_rad(const sensors::Sensor& sensor) {
-  return sensor.antenna.azimuth.cut_rad + kMarginColumns * sensor.scan.column_width_rad();
-}
 
 class SightMap::Tiles {
  public:
@@ -131,6 +42,7 @@ class SightMap::Tiles {
         south_m(ground.south_m),
         east_m(ground.east_m()),
         north_m(ground.north_m()),
+        relief(ground),
         posts_per_tile_(std::max(1, static_cast<int>(kTile_m / ground.spacing_m))),
         tile_m_(posts_per_tile_ * ground.spacing_m),
         columns_((ground.columns - 2) / posts_per_tile_ + 1),
@@ -150,6 +62,8 @@ class SightMap::Tiles {
   }
 
   double west_m, south_m, east_m, north_m;
+  Relief relief;
+  double tile_m() const { return tile_m_; }
   const Tile& at(int column, int row) const { return all_[place(column, row)]; }
   // Every tile that holds anything within the box, by east and north, and few others: use(column, row).
   template <class Use>
@@ -271,7 +185,7 @@ void SightMap::Tiles::add_mesh(const terrain::PlacedMesh& placed) {
 
 bool SightMap::fan_may_meet(const sensors::AntennaFrame& antenna, const sensors::Sensor& sensor,
                             const glm::dvec2& centre_m, double radius_m) const {
-  return Fan(antenna, sensor).may_meet_column(centre_m, radius_m, farthest_m(sensor));
+  return SightFan(antenna, sensor).may_meet_column(centre_m, radius_m, farthest_m(sensor));
 }
 
 bool SightMap::ends_within_range(const sensors::AntennaFrame& antenna,
@@ -281,7 +195,7 @@ bool SightMap::ends_within_range(const sensors::AntennaFrame& antenna,
   const glm::dvec2 high_m(tiles_->east_m, tiles_->north_m);
   if (glm::clamp(at_m, low_m, high_m) != at_m) return true;
   const double far_m = farthest_m(sensor);
-  const Fan fan(antenna, sensor);
+  const SightFan fan(antenna, sensor);
   // Pieces of what of a side is within range.
   constexpr int kPieces = 64;
   const double piece_m = 2.0 * far_m / kPieces;
@@ -298,9 +212,29 @@ bool SightMap::ends_within_range(const sensors::AntennaFrame& antenna,
   return meets(0, low_m.x) || meets(0, high_m.x) || meets(1, low_m.y) || meets(1, high_m.y);
 }
 
+bool SightMap::may_meet(const SightFan& directions, const Tile& tile) {
+  return directions.may_meet((tile.low_m + tile.high_m) / 2.0,
+                             glm::length(tile.high_m - tile.low_m) / 2.0 + kMargin_m);
+}
+
+bool SightMap::ground_may_meet_itself(const glm::dvec3& antenna_m, double far_m,
+                                      const SightFan& fan) const {
+  const auto may_mirror = [&](const glm::dvec3& low_m, const glm::dvec3& high_m) {
+    if (!fan.may_meet((low_m + high_m) / 2.0, glm::length(high_m - low_m) / 2.0 + kMargin_m))
+      return false;
+    if (high_m.x - low_m.x > 1.5 * tiles_->tile_m()) return true;
+    bool mirrors = false;
+    tiles_->for_tiles(low_m, high_m, [&](int column, int row) {
+      mirrors = mirrors || (tiles_->at(column, row).of_ground & mirrors_) != 0;
+    });
+    return mirrors;
+  };
+  return tiles_->relief.may_mirror_into_itself(antenna_m, far_m, may_mirror);
+}
+
 SightMap::Seen SightMap::seen_from(const sensors::AntennaFrame& antenna,
                                    const sensors::Sensor& sensor) const {
-  const Fan fan(antenna, sensor);
+  const SightFan fan(antenna, sensor);
   const glm::dvec3& at_m = antenna.position_m;
   const double far_m = farthest_m(sensor);
   Seen seen{at_m.z, at_m.z};
@@ -310,10 +244,6 @@ SightMap::Seen SightMap::seen_from(const sensors::AntennaFrame& antenna,
   double steepest_mirror = 0.0;
   double highest_mirror_m = -1e300;
   std::vector<const Tile*> bodies;  // within range
-  const auto may_meet = [](const Fan& directions, const Tile& tile) {
-    return directions.may_meet((tile.low_m + tile.high_m) / 2.0,
-                               glm::length(tile.high_m - tile.low_m) / 2.0 + kMargin_m);
-  };
   const glm::dvec3 reach_m(far_m, far_m, 0.0);
   tiles_->for_tiles(at_m - reach_m, at_m + reach_m, [&](int column, int row) {
     const Tile& tile = tiles_->at(column, row);
@@ -336,18 +266,18 @@ SightMap::Seen SightMap::seen_from(const sensors::AntennaFrame& antenna,
     steepest_mirror = std::max(steepest_mirror, tile.steepest);
     highest_mirror_m = std::max(highest_mirror_m, tile.highest_ground_m);
   });
-  const Fan turned =
+  const SightFan turned =
       level_fan(antenna, sensor, largest_turn_rad(antenna, sensor, std::atan(steepest_mirror)));
   const bool meets_bodies = std::any_of(bodies.begin(), bodies.end(), [&](const Tile* tile) {
     return bodies_mirror || (ground_in_fan && may_meet(turned, *tile));
   });
-  bool ground_meets_ground = false;
-  if (ground_in_fan) {
+  seen.mirrored_rays_end = meets_bodies;
+  if (ground_in_fan && !meets_bodies) {
     const double down_rad =
         std::asin(std::clamp((at_m.z - highest_mirror_m - kRayError_m) / far_m, -1.0, 1.0));
-    ground_meets_ground = !(down_rad - 2.0 * std::atan(steepest_mirror) > std::atan(steepest));
+    seen.mirrored_rays_end = !(down_rad - 2.0 * std::atan(steepest_mirror) > std::atan(steepest)) &&
+                             ground_may_meet_itself(at_m, far_m, fan);
   }
-  seen.mirrored_rays_end = meets_bodies || ground_meets_ground;
   return seen;
 }
 

@@ -15,12 +15,13 @@
 // ground of slope s leaves at the angle d - 2 s or more, and what it meets lies at a chord of the
 // ground that is nowhere steeper than its steepest facet, t: with
 //     d - 2 s > t ,   sin d >= (antenna - highest mirroring ground) / farthest range
-// it meets no ground. Slopes count from the scene's horizontal, as d does.
+// it meets no ground. Slopes count from the scene's horizontal, as d does. Where the whole ground
+// within range is not that gentle relief.h looks at it square by square.
 // Multipath reflects on the ellipsoid around antenna and target on which half the path is the range
 // of its echo, so within the farthest range at any azimuth.
 //
-// Heights are of the scene's frame. Cost: 5 ms a million cells and 30 ms a million triangles to
-// build; 20 ns a frame for each tile within the farthest range. Copies share the tiles, whatever mirrors in them.
+// Heights are of the scene's frame. Cost: 15 ms a million cells and 30 ms a million triangles to
+// build; 20 ns a frame for each tile within the farthest range, and relief.h's. Copies share the tiles, whatever mirrors in them.
 #pragma once
 
 #include <cstdint>
@@ -35,9 +36,7 @@
 
 namespace fanbeam::scenes {
 
-// How far beside the field of view the fan may reach: its beam's cut, and what whole groups of
-// sub-columns are more.
-double fan_margin_rad(const sensors::Sensor& sensor);
+class SightFan;
 
 class SightMap {
  public:
@@ -70,6 +69,9 @@ class SightMap {
     std::uint64_t of_ground = 0, of_bodies = 0;  // materials: bits by Tiles::bit_of
   };
   class Tiles;
+
+  static bool may_meet(const SightFan& directions, const Tile& tile);
+  bool ground_may_meet_itself(const glm::dvec3& antenna_m, double far_m, const SightFan& fan) const;
 
   std::shared_ptr<const Tiles> tiles_;
   std::uint64_t mirrors_ = 0;  // bits of the materials that mirror

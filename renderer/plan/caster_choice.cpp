@@ -54,18 +54,20 @@ CasterChoice choose_caster(CasterWish wish, const CasterFacts& facts, const core
     choice.reason = obstacle;
     return choice;
   }
-  if (wish == CasterWish::automatic && facts.buildings == 0) {
-    choice.reason =
-        facts.others == 0
-            ? "no building stands in the scene, so that rays come as close in the same time"
-            : "what stands in the scene are shapes that slices leave to rays";
+  if (wish == CasterWish::automatic && facts.buildings == 0 && !facts.double_bounce) {
+    choice.reason = facts.others == 0
+                        ? "no building stands in the scene and no double bounce runs, "
+                          "so that rays come as close in the same time"
+                        : "what stands in the scene are shapes that slices leave to "
+                          "rays, and no double bounce runs";
     return choice;
   }
   choice.chosen = CasterKind::profile;
   choice.others = facts.others;
-  choice.reason = wish == CasterWish::profile
-                      ? "asked for"
-                      : "over buildings slices come as close in half to all of the rays' time";
+  choice.reason = wish == CasterWish::profile ? "asked for"
+                  : facts.buildings > 0
+                      ? "over buildings slices come as close in half to all of the rays' time"
+                      : "with double bounce slices come as close in half to all of the rays' time";
   if (facts.others > 0)
     choice.reason += "; azimuths with " + others_text(facts.others) + " in them go to rays";
   if (facts.others > 0 && !(facts.vertical_turn_rad < kLevelWithin_rad))

@@ -1,11 +1,11 @@
 // Decides which way a scene is seen, by rays or by azimuth slices: a pure function of the user's
-// wish and of facts about the scene.
+// wish and of facts about the scene and its plan.
 //
 // Rays (ray_caster.h) show every geometry; they are the reference that all errors are stated
-// against. Over buildings slices (profile/profile_caster.h) come as close in half of their time, in the
-// B-scope of a city, to all of it (docs/performance-notes.md), so `automatic`, the default, takes them
+// against. Over buildings, and wherever double bounce runs, slices (profile/profile_caster.h) come as close in
+// half of their time to all of it (docs/performance-notes.md), so `automatic`, the default, takes them
 // wherever they show everything:
-//   no buildings                    both come as close in the same time: rays
+//   neither                         both come as close in the same time: rays
 //   a fan wider than 150 deg        headings of slices would meet behind the sensor: rays
 //   nothing but ground and prisms   slices, with any antenna
 //   models or prisms over open air  a level antenna sees each azimuth in a vertical half-plane:
@@ -31,9 +31,10 @@ inline constexpr double kWidestSlices_rad = 150.0 * core::kPi / 180.0;
 enum class CasterWish { rays, profile, automatic };
 
 struct CasterFacts {
-  std::size_t buildings = 1;  // Solids::prisms
-  std::size_t others = 0;     // models, CityJSON, prisms over open air: Solids::others
-  bool stabilised = true;     // the antenna, against roll and pitch; others count as tilted
+  std::size_t buildings = 1;   // Solids::prisms
+  std::size_t others = 0;      // models, CityJSON, prisms over open air: Solids::others
+  bool double_bounce = false;  // as the scene's plan says
+  bool stabilised = true;      // the antenna, against roll and pitch; others count as tilted
   bool plane_scan = true;
   // Smallest and largest angle between the vertical at the aircraft and that of the scene's origin: on a
   // round Earth even a stabilised antenna is not level in the scene far from its origin.

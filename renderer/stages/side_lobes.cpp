@@ -115,7 +115,7 @@ bool has_side_lobes(const SceneFacts& facts) {
 }
 
 double side_lobe_bound_dB(const SceneFacts& facts) {
-  // Lobes in elevation change how the two paths to a target cancel.
+  // Lobes in elevation change how the two paths to a target cancel; of corners: see the header.
   const sensors::BeamCut& elevation = facts.sensor.antenna.elevation;
   const bool elevation_lobes =
       sensors::reach_rad(elevation) > sensors::main_beam(elevation).cut_rad;

@@ -19,8 +19,17 @@
 // of the main beams; point targets with the largest two-way gain outside a main beam. A display of
 // mapping stc, or seed where the sensor has no [seed], counts in azimuth widths, and lobes inside the cut
 // make the beam A_cut / A_main times as wide: what they add nothing to gets darker by 10 log10 of that;
-// the larger change counts. Where double bounce is possible no echo has a bound: the whole window. The
-// same where lobes in elevation change how the two paths to a target over mirroring ground cancel.
+// the larger change counts. Where double bounce is possible no echo has a bound: the whole window, however
+// faint the lobes. Per solid angle of its first ray a pair returns up to 4 K rho S / R3^2 (bounce_tracer.h),
+// rho <= 1, S = sigma_B / sin(psi_i) the largest of any material, some 200 of metal that is grazed; but R3,
+// from the lit surface to the antenna, is not bounded by the range of the cell: it is as short as the nearest
+// wall is near. Written the other way round, over the solid angle under which that surface is
+// seen, 4 K rho S / (R1 + R2)^2 holds with R1 + R2 at least the cell's range, but once for every mirror
+// that lights it, and nothing counts those. Told from how near a flight comes to any surface, lobes of
+// -75 dB in azimuth would count 0.1 dB from 200 m off and 18 dB from 3 m (S = 100): of no use for landings.
+// Lobes in elevation would count by their level once, not squared: one way of a pair may be in the
+// main beam. The whole window, too, where lobes in elevation change how the two paths to a target over
+// mirroring ground cancel.
 #pragma once
 
 #include <vector>

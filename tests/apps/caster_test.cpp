@@ -101,8 +101,8 @@ TEST_CASE("run.json, pictures and the summary tell how the scene was cast", "[ca
         nlohmann::json({{"chosen", "rays"},
                         {"wish", "auto"},
                         {"reason",
-                         "no building stands in the scene, so that rays come as close in the same "
-                         "time"},
+                         "no building stands in the scene and no double bounce runs, so that rays "
+                         "come as close in the same time"},
                         {"rays_per_cell_and_column", 4.0}}));
   const nlohmann::json by_rays = json_of(folder.path() / "rays/run.json")["sampling"];
   CHECK(by_rays["rays_per_cell_and_sub_column"] == 1.0);
@@ -222,7 +222,7 @@ TEST_CASE("Slices that cannot show the scene are refused with exit code 3 and a 
 TEST_CASE("validate says how a scene will be cast", "[caster]") {
   CHECK(run_fanbeam("validate flat-grass")
             .output.find(
-                "  caster      rays: no building stands in the scene, so that rays come as ") !=
+                "  caster      rays: no building stands in the scene and no double bounce runs") !=
         std::string::npos);
   CHECK(run_fanbeam("validate flat-grass").output.find("open air") == std::string::npos);
 }

@@ -58,9 +58,26 @@ TEST_CASE("Over open ground rays are taken, and slices where they are asked for"
   const auto automatic = choose_caster(CasterWish::automatic, {.buildings = 0});
   CHECK(automatic.chosen == CasterKind::rays);
   CHECK(automatic.reason ==
-        "no building stands in the scene, so that rays come as close in the same time");
+        "no building stands in the scene and no double bounce runs, so that rays come as close in "
+        "the same time");
   CHECK(automatic.why_no_slices.empty());
+  CHECK(choose_caster(CasterWish::automatic, {.buildings = 0, .others = 2}).chosen ==
+        CasterKind::rays);
   CHECK(choose_caster(CasterWish::profile, {.buildings = 0}).chosen == CasterKind::profile);
+}
+
+// Of a lava field with mirrored rays in it 4 rays were left with 0.51 grey in 45 ms, 2 slices with 0.28 in 29.
+TEST_CASE("Where double bounce runs slices are taken, buildings or not", "[caster_choice]") {
+  const auto open = choose_caster(CasterWish::automatic, {.buildings = 0, .double_bounce = true});
+  CHECK(open.chosen == CasterKind::profile);
+  CHECK(open.reason == "with double bounce slices come as close in half to all of the rays' time");
+  const auto models =
+      choose_caster(CasterWish::automatic, {.buildings = 0, .others = 1, .double_bounce = true});
+  CHECK(models.chosen == CasterKind::profile);
+  CHECK(models.others == 1);
+  check_refused({.buildings = 0, .double_bounce = true, .fan_rad = 2.7}, "at most 150 deg");
+  CHECK(choose_caster(CasterWish::rays, {.buildings = 0, .double_bounce = true}).chosen ==
+        CasterKind::rays);
 }
 
 TEST_CASE("Ground and solid prisms go to slices with any antenna", "[caster_choice]") {

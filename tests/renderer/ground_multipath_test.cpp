@@ -187,6 +187,32 @@ TEST_CASE("A tilted plane reflects as the level one does, seen from its own norm
       Approx(heights_m2 / (direct_m + std::sqrt(direct_m * direct_m + heights_m2))).epsilon(1e-9));
 }
 
+// On which plans rest: a shower beside the fan cannot count for the sake of a target in it.
+TEST_CASE("Rain on the way by the ground alone takes nothing from a target", "[multipath]") {
+  renderer::World world = flat_world(1500.0, 50.0, kMetal);
+  // The plane leans to the east, so that it mirrors 8 m east of the straight way, 1200 m ahead.
+  world.geometry =
+      tests::geometry(tests::ground(4000.0, 250.0, [](double x_m, double) { return 0.1 * x_m; }));
+  const auto dry = echoes(world, 200.0, Multipath::mean);
+  REQUIRE(dry.size() > 1);
+  const auto in_shower = [&](double east_m) {
+    atmosphere::Weather weather;
+    atmosphere::RainCell shower;
+    shower.centre_m = {east_m, 1200.0};
+    shower.radius_m = 3.0;
+    shower.rain_rate_mm_per_h = 100.0;
+    weather.rain_cells = {shower};
+    world.rain_cells = atmosphere::RainCells(weather, 35e9);
+    return echoes(world, 200.0, Multipath::mean);
+  };
+  const auto beside = in_shower(8.0), between = in_shower(0.0);
+  REQUIRE(beside.size() == dry.size());
+  for (std::size_t i = 0; i < dry.size(); ++i) {
+    CHECK(beside[i].power_W == dry[i].power_W);
+    CHECK(between[i].power_W < dry[i].power_W);
+  }
+}
+
 TEST_CASE("Dark ground, rough ground or a blocked leg leave the direct echo as it was",
           "[multipath]") {
   const auto same = [](const renderer::World& world) {

@@ -65,6 +65,24 @@ TEST_CASE("A scene with a building is seen by slices unless it says otherwise", 
   CHECK(open->caster.wish == CasterWish::automatic);
 }
 
+TEST_CASE("A scene without a building is seen by slices while its plan runs double bounce",
+          "[scene_caster]") {
+  const TruckFolder folder;
+  std::string open = with(kTruck);
+  open.erase(open.find("[[box]]"), open.find("[[model]]") - open.find("[[box]]"));
+  const auto scene = tests::good_scene(folder, open);
+  REQUIRE(scene->plan.runs(core::EffectId::double_bounce));
+  CHECK(scene->caster.chosen == CasterKind::profile);
+  CHECK(scene->caster.reason.starts_with("with double bounce slices come as close"));
+  // Conditions change the plan, and with it the caster.
+  core::ProblemList problems;
+  const auto without = scenes::under_conditions(
+      *scene, {.wishes = renderer::parse_effect_wishes("-double-bounce")}, problems);
+  CHECK(without->caster.chosen == CasterKind::rays);
+  CHECK(scenes::under_conditions(*without, {.wishes = renderer::EffectWishes{}}, problems)
+            ->caster.chosen == CasterKind::profile);
+}
+
 TEST_CASE("A model takes its azimuths from slices, and all of them when the antenna tilts",
           "[scene_caster]") {
   const TruckFolder folder;

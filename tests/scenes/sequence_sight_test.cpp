@@ -115,11 +115,34 @@ TEST_CASE("A shower beside the fan is not there for a scene without mirrored ray
     CHECK_FALSE(approach({kNoHangar, kNoPost, kShowerBeside}, "none")->plan.runs(effect));
   }
   CHECK(approach({kNoHangar, kNoPost})->plan.runs(core::EffectId::rain));
-  // Rays that a wall or the ground mirrors may pass it; nothing changes more than the display has.
+  // Rays that a wall mirrors may pass it; nothing changes more than the display has.
   const auto mirrored = approach({kShowerBeside});
   CHECK(mirrored->plan.runs(core::EffectId::rain));
   for (const core::EffectDecision& decision : mirrored->plan.decisions)
     CHECK(decision.bound_grey <= 255.0);
+}
+
+// It ran as 255 grey levels for one lamp anywhere on level ground.
+TEST_CASE("A target's mirror image does not bring in a shower beside the fan",
+          "[scenes][frame_plan]") {
+  const auto scene = approach({kNoHangar, kShowerBeside});
+  REQUIRE(scene->plan.runs(core::EffectId::multipath));
+  CHECK_FALSE(scene->plan.runs(core::EffectId::rain));
+  CHECK_FALSE(scene->plan.runs(core::EffectId::rain_echo));
+  CHECK(change_by_forced_grey(*scene, *approach({kNoHangar, kShowerBeside}, "+rain,+rain-echo"),
+                              {core::EffectId::rain, core::EffectId::rain_echo}) == 0.0);
+  CHECK(approach({kNoHangar})->plan.runs(core::EffectId::rain));
+}
+
+TEST_CASE("Of a scene with corners a shower counts from anywhere within range, and from no farther",
+          "[scenes][frame_plan]") {
+  const auto at = [](const char* metres) {
+    return approach({kNoPost, {"at = { runway = \"36\", behind_threshold_m = 1500.0 }", metres}})
+        ->plan.runs(core::EffectId::rain);
+  };
+  // The flight passes it abeam and sees 3.7 km; its radius is 400 m.
+  CHECK(at("at = { runway = \"36\", behind_threshold_m = -3000.0, left_m = 3900.0 }"));
+  CHECK_FALSE(at("at = { runway = \"36\", behind_threshold_m = -3000.0, left_m = 4300.0 }"));
 }
 
 // It doubled: the beam was followed into the ground.

@@ -2,6 +2,8 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
+#include "core/effect_plan.h"
+#include "scenes/frame_plan.h"
 #include "tests/scenes/shipped_scene.h"
 #include "tests/shared_data.h"
 
@@ -66,4 +68,10 @@ TEST_CASE("Keflavik flies the recorded attitude over the simulator's terrain", "
   const std::unique_ptr<scenes::Scene> keflavik = built("keflavik-10", {data->parent_path()});
   CHECK(keflavik->frame_count() > 1800);
   CHECK_FALSE(keflavik->trajectory->attitude_derived);
+  // Lava mirrors into lava from low above it, and nowhere before. With the shore that faces the antenna
+  // and is the steepest ground of all, double bounce ran for 1800 frames.
+  CHECK(keflavik->plan.runs(core::EffectId::double_bounce));
+  CHECK(keflavik->caster.chosen == renderer::CasterKind::profile);
+  for (const int frame : {0, 120, 240})
+    CHECK_FALSE(scenes::frame_plan(*keflavik, frame).runs(core::EffectId::double_bounce));
 }
