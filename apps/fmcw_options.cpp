@@ -133,6 +133,9 @@ void add_processing(CLI::App& command, FmcwOptions& options) {
           "Of samples that other radars' chirps cross ([[interferer]] of the scene): set to 0, or "
           "filled from the rest of the chirp (default none)")
       ->check(CLI::IsMember({"none", "zero", "interpolate"}));
+}
+
+void add_detector(CLI::App& command, FmcwOptions& options) {
   command
       .add_option_function<std::string>(
           "--cfar",
@@ -149,6 +152,9 @@ void add_processing(CLI::App& command, FmcwOptions& options) {
                   "False-alarm probability of a cell of the range-Doppler map")
       ->check(number_from(1e-12, 0.1))
       ->capture_default_str();
+}
+
+void add_detections(CLI::App& command, FmcwOptions& options) {
   command
       .add_option_function<std::string>(
           "--angle-method",
@@ -156,8 +162,7 @@ void add_processing(CLI::App& command, FmcwOptions& options) {
             options.angle_method = *signal::angle_method(word);
           },
           "Directions of a cell: the strongest beam; capon and music, of four channels or more, "
-          "tell "
-          "two inside a beamwidth apart, capon sharpens the range-azimuth map too (default "
+          "tell two inside a beamwidth apart, capon sharpens the range-azimuth map too (default "
           "beamforming)")
       ->check(CLI::IsMember({"beamforming", "capon", "music"}));
   command
@@ -229,6 +234,8 @@ CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options) {
   const std::vector<const CLI::Option*> chain = declared_by(command, [&] {
     add_radar(command, options);
     add_processing(command, options);
+    add_detector(command, options);
+    add_detections(command, options);
     add_maps(command, options);
   });
   add_receiver(command, options);
