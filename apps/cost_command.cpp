@@ -103,7 +103,7 @@ int cost(const CostOptions& options, const CommonOptions& common) {
                                  slices,
                                  renderer::default_sampling(scene->caster.chosen),
                                  frames};
-  write_cost(run(bench, options, common, threads.threads()), folder);
+  write_cost(run(bench, options, common, core::ThreadLimit::threads()), folder);
   if (common.quiet) return kExitDone;
   fmt::print("measured in {}{}\n{}\n", duration_text(measure::milliseconds_since(begin) * 1e-3),
              options.quick ? " (a quick look: its figures are no measurement)" : "",

@@ -136,6 +136,9 @@ void add_processing(CLI::App& command, FmcwOptions& options) {
           "Of samples that other radars' chirps cross ([[interferer]] of the scene): set to 0, or "
           "filled from the rest of the chirp (default none)")
       ->check(CLI::IsMember({"none", "zero", "interpolate"}));
+}
+
+void add_detector(CLI::App& command, FmcwOptions& options) {
   command
       .add_option_function<std::string>(
           "--cfar",
@@ -152,6 +155,9 @@ void add_processing(CLI::App& command, FmcwOptions& options) {
                   "False-alarm probability of a cell of the range-Doppler map")
       ->check(number_from(1e-12, 0.1))
       ->capture_default_str();
+}
+
+void add_detections(CLI::App& command, FmcwOptions& options) {
   command
       .add_option_function<std::string>(
           "--angle-method",
@@ -232,6 +238,8 @@ CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options) {
   const std::vector<const CLI::Option*> chain = declared_by(command, [&] {
     add_radar(command, options);
     add_processing(command, options);
+    add_detector(command, options);
+    add_detections(command, options);
     add_maps(command, options);
   });
   add_receiver(command, options);

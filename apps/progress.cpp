@@ -13,7 +13,7 @@ namespace {
 
 // "0:45", "3:10".
 std::string minutes_text(double seconds) {
-  const auto whole = static_cast<long>(std::min(seconds, 359999.0) + 0.5);
+  const auto whole = std::lround(std::min(seconds, 359999.0));
   return fmt::format("{}:{:02}", whole / 60, whole % 60);
 }
 

@@ -203,7 +203,7 @@ void run(const Options& options) {
     benchmark::RunSpecifiedBenchmarks();
   }
   if (!options.report) return;
-  Report report = measure(scenes, effort, threads.threads(), options.estimates, machine);
+  Report report = measure(scenes, effort, core::ThreadLimit::threads(), options.estimates, machine);
   report.skipped = std::move(skipped);
   report.notes = notes();
   if (options.report_file.empty()) {

@@ -41,7 +41,7 @@ Case case_of(int count) {
 void beat_1000(benchmark::State& state, double relative_error) {
   const core::ThreadLimit one(1);
   const Case given = case_of(1000);
-  for (auto _ : state)
+  for ([[maybe_unused]] auto _ : state)
     benchmark::DoNotOptimize(
         signal::synthesise_beat(given.waveform, 0, given.array, given.paths, {relative_error}));
 }
@@ -54,7 +54,7 @@ BENCHMARK_CAPTURE(beat_1000, to_1e_6, 1e-6)
 
 void beat_million(benchmark::State& state) {
   const Case given = case_of(1000000);
-  for (auto _ : state)
+  for ([[maybe_unused]] auto _ : state)
     benchmark::DoNotOptimize(signal::keystone_beat(given.waveform, 0, given.array, given.paths));
 }
 BENCHMARK(beat_million)

@@ -31,7 +31,7 @@ void scan(benchmark::State& state) {
   const tracking::SampledRadar sampled(radar);
   tracking::Tracker tracker(tracking::road_tracker(radar, scenario.radar_speed_mps));
   int frame = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     tracker.update(frame * radar.frame_s, sampled.measure(scenario, 1, 0, frame));
     ++frame;
   }

@@ -63,7 +63,7 @@ void tracker(benchmark::State& state, int count, tracking::Association associati
   for (int i = 0; i < kFrames; ++i) frames.push_back(measured(scenario, i));
   auto settings = tracking::road_tracker(radar(), scenario.radar_speed_mps);
   settings.association = association;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     tracking::Tracker fresh(settings);
     for (int i = 0; i < kFrames; ++i)
       fresh.update(i * radar().frame_s, frames[static_cast<std::size_t>(i)]);

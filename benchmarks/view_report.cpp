@@ -37,7 +37,7 @@ std::string ray_row(const std::string& first, double frame_ms, std::uint64_t ray
 }
 
 std::string slice_row(const std::string& first, const LadderStep& step) {
-  const double count = static_cast<double>(step.slices);
+  const auto count = static_cast<double>(step.slices);
   return fmt::format("| {} | {:.1f} | {:.1f} | {} | {:.1f} |", first, step.time.ms,
                      1000.0 / step.time.ms, step.slices,
                      count > 0.0 ? 1000.0 * step.time.ms / count : 0.0) +

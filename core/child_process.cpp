@@ -14,8 +14,6 @@
 
 #include "core/stop.h"
 
-extern char** environ;
-
 namespace fanbeam::core {
 
 ChildProcess::ChildProcess(const std::vector<std::string>& words, Pipe pipe) {

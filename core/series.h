@@ -101,7 +101,7 @@ inline double series_log(double x) noexcept {
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(x) + kShift;
   constexpr std::uint64_t kWholeNumber = 0x4330'0000'0000'0000;  // 2^52, and n in its last bits
   const double exponent = std::bit_cast<double>(kWholeNumber | (bits >> 52)) - (0x1p52 + 1023.0);
-  const double mantissa = std::bit_cast<double>((bits & kMantissa) + kOne - kShift);
+  const auto mantissa = std::bit_cast<double>((bits & kMantissa) + kOne - kShift);
   const double s = (mantissa - 1.0) / (mantissa + 1.0);
   const double z = s * s;
   double series = 1.0 / 21;

@@ -143,7 +143,7 @@ Value Distribution::at(double u) const {
     return std::clamp(uniform->low * std::exp(u * ratio), uniform->low, uniform->high);
   }
   if (const auto* normal = std::get_if<Normal>(&form_)) return truncated_normal(*normal, u);
-  const Choice& choice = std::get<Choice>(form_);
+  const auto& choice = std::get<Choice>(form_);
   double sum = 0.0;
   for (std::size_t i = 0; i < choice.values.size(); ++i) {
     sum += choice.weights[i];

@@ -111,12 +111,12 @@ bool CigiConditions::take(const cigi::WeatherControl& packet) {
   if (packet.layer == kRain) {
     const double rate_mm_per_h =
         water > 0.0 ? marshall_palmer_mm_per_h(water) : by_severity(kRain_mm_per_h, severity);
-    edits_.push_back([=](atmosphere::Weather& now) { now.rain_rate_mm_per_h = rate_mm_per_h; });
+    edits_.emplace_back([=](atmosphere::Weather& now) { now.rain_rate_mm_per_h = rate_mm_per_h; });
   } else if (packet.layer == kSnow) {
     const double rate_mm_per_h = by_severity(kSnow_mm_per_h, severity);
-    edits_.push_back([=](atmosphere::Weather& now) { now.snow_rate_mm_per_h = rate_mm_per_h; });
+    edits_.emplace_back([=](atmosphere::Weather& now) { now.snow_rate_mm_per_h = rate_mm_per_h; });
   } else {
-    edits_.push_back([=](atmosphere::Weather& now) {
+    edits_.emplace_back([=](atmosphere::Weather& now) {
       now.visibility_m.reset();
       now.liquid_water_g_per_m3.reset();
       if (water > 0.0)
@@ -132,7 +132,7 @@ bool CigiConditions::take(const cigi::WeatherControl& packet) {
 
 bool CigiConditions::take(const cigi::AtmosphereControl& packet) {
   if (!packet.enabled) return false;
-  edits_.push_back([=](atmosphere::Weather& now) {
+  edits_.emplace_back([=](atmosphere::Weather& now) {
     now.temperature_C = packet.temperature_C;
     now.humidity = 0.01 * packet.humidity_percent;
     now.pressure_hPa = packet.pressure_hPa;

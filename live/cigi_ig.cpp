@@ -224,7 +224,7 @@ void CigiIg::ask(const Question& question, std::uint8_t period) {
       asked_.push_back(asked);
     else
       ++unanswered_;
-  } else if (periodic_.size() < kMostPeriodic || periodic_.count(key) > 0) {
+  } else if (periodic_.size() < kMostPeriodic || periodic_.contains(key)) {
     periodic_[key] = {asked, period};
   } else {
     ++unanswered_;

@@ -55,7 +55,7 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
 
  private:
   void take(const HttpRequest& request) {
-    const Request asked = request_of(request);
+    Request asked = request_of(request);
     const std::string path = asked.target.substr(0, asked.target.find('?'));
     const bool by_socket = websocket::is_upgrade(request) && path == "/ws";
     const bool by_stream = asked.method == "GET" && is_stream(path);
@@ -69,13 +69,14 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
     // Frames wait for no answer, and what is at hand for none that is rendered. Of each connection one request
     // waits, as the next is read after its answer.
     asio::thread_pool& where = Desk::renders(asked) ? room_.office : room_.counter;
-    asio::post(where, [self = shared_from_this(), request, asked] {
+    // What is captured of a const object would be const, and copied with each move.
+    asio::post(where, [self = shared_from_this(), request = HttpRequest(request), asked] {
       const core::StopToken leaving = self->room_.leaving.token();
       if (leaving.reason() != 0) return;
       const core::StopScope scope(leaving);
       const auto given = std::make_shared<const Answer>(self->room_.desk.answer(asked));
       asio::post(self->stream_.get_executor(),
-                 [self, request, given] { self->answer(request, *given); });
+                 [self, request = HttpRequest(request), given] { self->answer(request, *given); });
     });
   }
 

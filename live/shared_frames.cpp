@@ -92,8 +92,8 @@ void put(std::uint8_t* at, T value) {
   std::memcpy(at, &value, sizeof value);
 }
 
-std::atomic_ref<std::uint64_t> counter(std::uint8_t* at) {
-  return std::atomic_ref<std::uint64_t>(*reinterpret_cast<std::uint64_t*>(at));
+std::atomic_ref<std::uint64_t> counter(void* at) {
+  return std::atomic_ref<std::uint64_t>(*static_cast<std::uint64_t*>(at));
 }
 
 std::size_t pixels(const sensors::Sensor& sensor, int rows) {

@@ -64,9 +64,8 @@ std::shared_ptr<const renderer::Geometry> geometry_of(const Ground& ground,
                                                       std::vector<std::string> material_names,
                                                       const BuildOptions& options) {
   return std::make_shared<renderer::Geometry>(renderer::Geometry{
-      std::make_unique<terrain::RayScene>(ground.field(), std::move(patches),
-                                          std::move(bodies.meshes), options.instruction_set,
-                                          options.robust),
+      std::make_unique<terrain::RayScene>(ground.field(), std::move(patches), bodies.meshes,
+                                          options.instruction_set, options.robust),
       std::move(bodies.solids), std::move(material_names), std::move(bodies.objects.names),
       std::move(bodies.objects.kinds), std::move(bodies.objects.models)});
 }

@@ -106,7 +106,7 @@ sensors::Sensor with_settings(sensors::Sensor sensor, const SensorSettings& sett
   display.cscope_mode = settings.cscope_mode.value_or(display.cscope_mode);
   if ((settings.low_dB || settings.high_dB) && display.mapping == sensors::Display::Mapping::seed)
     problems.error(core::ErrorClass::unsupported, {}, "low_dB, high_dB", "with mapping \"seed\"",
-                   "mapping \"stc\" or \"log\"; \"seed\" has a window of its own");
+                   R"(mapping "stc" or "log"; "seed" has a window of its own)");
   constexpr core::NumberRange kLevels_dB = SensorSettings::kLevels_dB;
   if (settings.low_dB) core::check_range(problems, "low_dB", *settings.low_dB, kLevels_dB, "dB");
   if (settings.high_dB) core::check_range(problems, "high_dB", *settings.high_dB, kLevels_dB, "dB");

@@ -217,7 +217,7 @@ PixelMap::PixelMap(const Geotransform& geotransform, const std::string& crs_wkt,
 std::optional<PixelPosition> PixelMap::pixel_at(double latitude_rad, double longitude_rad) const {
   const double middle_rad = 0.5 * (box_.west_rad + box_.east_rad);
   const double from_middle_rad = std::remainder(longitude_rad - middle_rad, 2.0 * core::kPi);
-  const double cells = static_cast<double>(cells_);
+  const auto cells = static_cast<double>(cells_);
   const double u = (0.5 + from_middle_rad / (box_.east_rad - box_.west_rad)) * cells;
   const double v = (latitude_rad - box_.south_rad) / (box_.north_rad - box_.south_rad) * cells;
   if (!(u >= 0.0 && u <= cells && v >= 0.0 && v <= cells)) return std::nullopt;

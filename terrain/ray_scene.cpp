@@ -78,7 +78,8 @@ const std::string kBuildThreads;
 }  // namespace
 
 RayScene::RayScene(std::optional<HeightField> terrain, std::vector<SurfacePatch> patches,
-                   std::vector<PlacedMesh> meshes, const std::string& instruction_set, bool robust)
+                   const std::vector<PlacedMesh>& meshes, const std::string& instruction_set,
+                   bool robust)
     : library_(std::make_unique<Library>()), has_terrain_(terrain.has_value()) {
   // The number of threads of the build does not change the tree.
   const std::string set =

@@ -87,7 +87,7 @@ class RayScene {
   // `terrain` may be absent. `instruction_set` limits Embree: "sse4.2", "avx", "avx2", "avx512";
   // empty, that of core::instruction_limit(), and without a limit the best that Embree finds.
   RayScene(std::optional<HeightField> terrain, std::vector<SurfacePatch> patches,
-           std::vector<PlacedMesh> meshes, const std::string& instruction_set = "",
+           const std::vector<PlacedMesh>& meshes, const std::string& instruction_set = "",
            bool robust = true);
   ~RayScene();
   RayScene(const RayScene&) = delete;

@@ -130,7 +130,7 @@ std::vector<const CLI::App*> commands_of(const CLI::App& command) {
 }
 
 std::string path_of(const CLI::App& command) {
-  const std::string name = command.get_name();
+  const std::string& name = command.get_name();
   return command.get_parent() == nullptr ? name : path_of(*command.get_parent()) + " " + name;
 }
 

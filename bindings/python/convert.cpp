@@ -42,7 +42,7 @@ void refuse_type(const std::string& field, const char* expected, const py::handl
 }
 
 py::object whole_number(const py::handle& value) {
-  py::object number = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+  auto number = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
   PyErr_Clear();
   return number;
 }
@@ -88,7 +88,7 @@ py::list problems_list(const std::vector<core::Problem>& problems) {
 void translate_errors() {
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
-      if (thrown) std::rethrow_exception(thrown);
+      if (thrown) std::rethrow_exception(std::move(thrown));
     } catch (const core::InputError& error) {
       raise(error);
     } catch (const core::Stopped&) {

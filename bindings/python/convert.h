@@ -58,7 +58,7 @@ T value_of(const py::handle& value, const std::string& field, core::ProblemList&
     if (!truth.load(value, false)) refuse_type(field, expected, value);
     return py::detail::cast_op<bool>(truth);
   } else {
-    py::object given = py::reinterpret_borrow<py::object>(value);
+    auto given = py::reinterpret_borrow<py::object>(value);
     if constexpr (std::is_integral_v<T>) given = whole_number(value);
     if (!given) refuse_type(field, expected, value);
     try {

@@ -46,7 +46,7 @@ bool Databases::is_ready(std::int8_t wanted) {
   }
   if (ready_ && opening_ == wanted) return true;
   ready_.reset();  // the host has changed its mind
-  if (wanted == current_ || scenes_.count(wanted) == 0) return false;
+  if (wanted == current_ || !scenes_.contains(wanted)) return false;
   opening_ = wanted;
   future_ = std::async(std::launch::async, [this, scene = scenes_.at(wanted)] {
     const core::StopToken token = leaving_.token();

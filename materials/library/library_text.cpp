@@ -11,7 +11,7 @@ namespace {
 using Values = std::map<std::string, std::string, std::less<>>;  // by key
 
 Values fitted_values(const Material& material) {
-  const PhongSurface& row = std::get<PhongSurface>(material.model);
+  const auto& row = std::get<PhongSurface>(material.model);
   const PhongDerivation derived = derive(row, *material.reference);
   Values values = {{"a", five_digits(derived.fit.nrcs.a())},
                    {"b", five_digits(derived.fit.nrcs.b())},

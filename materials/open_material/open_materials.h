@@ -51,7 +51,7 @@ class OpenMaterials {
   OpenMaterials(const std::filesystem::path& file, std::filesystem::path allowed_folder,
                 const RadarQuery& query, core::ProblemList& problems);
 
-  bool knows(const std::string& name) const { return mapping_.material_of_name.count(name) > 0; }
+  bool knows(const std::string& name) const { return mapping_.material_of_name.contains(name); }
 
   // What a known name looks like. Reports the problems of the material and its tables, E-PATH
   // for files outside the folder, E-UNSUPPORTED when nothing in it serves this radar;

@@ -77,7 +77,7 @@ Sampling twice_as_many(const Sampling& slices) {
 FanSums in_pairs(FanSums fan, int margin) {
   const auto smooth = [&](std::vector<double>& sums, int bins) {
     const auto count = static_cast<std::size_t>(bins);
-    for (std::size_t sub = static_cast<std::size_t>(margin % 2);
+    for (auto sub = static_cast<std::size_t>(margin % 2);
          sub + 1 < static_cast<std::size_t>(fan.sub_columns); sub += 2)
       for (std::size_t i = sub * count; i < (sub + 1) * count; ++i)
         sums[i] = sums[i + count] = (sums[i] + sums[i + count]) / 2;

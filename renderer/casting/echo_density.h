@@ -34,7 +34,7 @@ class EchoDensity {
     look_up(batch, facets, factors);
     alignas(64) float density[kBatchRays];
     for (int i = 0; i < kBatchRays; ++i) {
-      const double range_m = static_cast<double>(facets.range_m[i]);
+      const auto range_m = static_cast<double>(facets.range_m[i]);
       const double nrcs = factors.nrcs[i] + factors.nrcs_step[i] * factors.nrcs_share[i];
       const double nepers_per_m = factors.loss[i] + factors.loss_step[i] * factors.loss_share[i];
       density[i] = static_cast<float>(
@@ -71,8 +71,8 @@ class EchoDensity {
   };
 
   void measure(const RayBatch& batch, Facets& facets) const {
-    const float x_m = static_cast<float>(antenna_m_.x), y_m = static_cast<float>(antenna_m_.y),
-                z_m = static_cast<float>(antenna_m_.z);
+    const auto x_m = static_cast<float>(antenna_m_.x), y_m = static_cast<float>(antenna_m_.y),
+               z_m = static_cast<float>(antenna_m_.z);
     for (int i = 0; i < kBatchRays; ++i) {
       const float nx = batch.normal_x[i], ny = batch.normal_y[i], nz = batch.normal_z[i];
       const float along =

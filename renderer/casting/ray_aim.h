@@ -32,8 +32,8 @@ class RayAim {
   // Fills directions and Jacobians.
   void point(RayBatch& batch) const {
     unsigned wide = 0;
-    for (int i = 0; i < kBatchRays; ++i)
-      wide |= std::abs(batch.offset_rad[i]) > kSmallOffset_rad ? 1U : 0U;
+    for (const double offset_rad : batch.offset_rad)
+      wide |= std::abs(offset_rad) > kSmallOffset_rad ? 1U : 0U;
     if (wide != 0) {
       point_any<true>(batch);
     } else {

@@ -266,7 +266,7 @@ void GroupCaster<N>::deposit_points() {
     const double low_rad = scratch_.edges[row], high_rad = scratch_.edges[row + 1];
     const double power =
         static_cast<double>(rays.density_W_per_rad2[i]) * (high_rad - low_rad) * share;
-    const double range_m = static_cast<double>(rays.range_m[i]);
+    const auto range_m = static_cast<double>(rays.range_m[i]);
     const double cell = (range_m - gate.minimum_m) / gate.cell_m;
     deposit(cell, cell, power, range_bins(ray % kGroupAzimuths), sums_.cells);
     if (range_m < gate.minimum_m) ++scratch_.blanked_count;

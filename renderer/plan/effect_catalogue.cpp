@@ -164,8 +164,8 @@ const std::vector<Effect>& sample_effects() {
   return kCatalogue;
 }
 
-const std::vector<Effect>& picture_effects() {
-  static const std::vector<Effect> kCatalogue = {
+std::vector<Effect> effects_of_air() {
+  return {
       {core::EffectId::gas,
        "two-way loss in oxygen and water vapour",
        "ITU-R P.676-13 Annex 1 on the P.835-6 standard atmosphere",
@@ -205,6 +205,11 @@ const std::vector<Effect>& picture_effects() {
       {core::EffectId::rain_echo, "echo of rain and snow in the air",
        "Mie scattering over drop sizes, volume radar equation", has_echo, rain_echo_bound_dB,
        rain_echo_cause, "nothing falls in this scene", "neither rain nor snow falls within range"},
+  };
+}
+
+std::vector<Effect> effects_of_surfaces() {
+  return {
       {core::EffectId::double_bounce, "walls and ground seen through each other",
        "mirror and bistatic NRCS, docs/physics/double-bounce.md", corners_possible, whole_window_dB,
        double_bounce_cause,
@@ -224,6 +229,11 @@ const std::vector<Effect>& picture_effects() {
        "the scene's surfaces are dry",
        {},
        true},
+  };
+}
+
+std::vector<Effect> effects_of_radar() {
+  return {
       {core::EffectId::side_lobes,
        "antenna gain outside the main beam",
        "uniform level, Skolnik, Introduction to Radar Systems, 3rd ed., chapter 9",
@@ -251,6 +261,15 @@ const std::vector<Effect>& picture_effects() {
        {},
        true},
   };
+}
+
+const std::vector<Effect>& picture_effects() {
+  static const std::vector<Effect> kCatalogue = [] {
+    std::vector<Effect> all;
+    for (const auto& part : {effects_of_air(), effects_of_surfaces(), effects_of_radar()})
+      all.insert(all.end(), part.begin(), part.end());
+    return all;
+  }();
   return kCatalogue;
 }
 

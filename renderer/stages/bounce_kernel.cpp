@@ -162,7 +162,7 @@ FANBEAM_HOT(void, measure_hits, (const BounceView& view, const CastRays& rays, R
     const glm::dvec3 along{rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]};
     const glm::dvec3 origin_m{rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]};
     const glm::dvec3 out{rays.normal_x[i], rays.normal_y[i], rays.normal_z[i]};
-    const double distance = static_cast<double>(rays.distance[i]);
+    const auto distance = static_cast<double>(rays.distance[i]);
     const double along_m = glm::length(along);
     const glm::dvec3 direction = (1.0 / along_m) * along;
     // A ray that met nothing may have none.

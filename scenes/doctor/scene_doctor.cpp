@@ -46,7 +46,7 @@ std::vector<Sight> flight_of(const Scene& scene, const Ground& ground) {
     Sight sight{frame, renderer::antenna_of(sensor, scene.frame_pose(frame)), 0.0};
     const glm::dvec3& at_m = sight.antenna.position_m;
     sight.above_ground_m = at_m.z - ground.field().height_at(at_m.x, at_m.y).value_or(at_m.z);
-    flight.push_back(std::move(sight));
+    flight.push_back(sight);
   }
   return flight;
 }

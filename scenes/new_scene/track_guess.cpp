@@ -264,8 +264,8 @@ class TrackGuesser {
   void keep_longest_piece() {
     std::vector<ApproachPart> pieces;
     std::size_t begin = part_.first;
-    for (std::size_t i = part_.first, end = i; i <= part_.last; i = std::max(end, i + 1)) {
-      for (end = i; end <= part_.last && is_low(end);) ++end;
+    for (std::size_t i = part_.first, end = i; i <= part_.last; i = end = std::max(end, i + 1)) {
+      while (end <= part_.last && is_low(end)) ++end;
       const bool stop =
           end - i >= kStopRows || (end > i && rows_[end - 1].time_s - rows_[i].time_s >= kStop_s);
       if (!stop) continue;

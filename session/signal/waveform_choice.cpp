@@ -47,7 +47,7 @@ class Given {
 
   void refuse_the_rest() const {
     for (std::size_t i = 0; i < kWaveformNumbers.size(); ++i)
-      if (options_.numbers[i] && taken_.count(i) == 0)
+      if (options_.numbers[i] && !taken_.contains(i))
         refuse(kWaveformNumbers[i].option, core::number_text(*options_.numbers[i]));
     if (options_.real && !real_taken_) refuse("--real", "given");
     if (options_.down_first && !down_first_taken_) refuse("--down-first", "given");

@@ -206,7 +206,7 @@ double drawn_mean_estimate(const CfarSettings& settings, const std::vector<CfarO
 CfarCalibration drawn_calibration(const CfarSettings& settings,
                                   const std::vector<CfarOffset>& offsets, const Matrix& correlation,
                                   int looks) {
-  const double n = static_cast<double>(offsets.size());
+  const auto n = static_cast<double>(offsets.size());
   const double tilt = useful_tilt(looks, n, settings.design_probability);
   const BackgroundDraw drawer(settings, offsets, correlation, looks, tilt);
   if (drawer.variance() < kLeastUntold) return {};
@@ -233,7 +233,7 @@ CfarCalibration drawn_calibration(const CfarSettings& settings,
   CfarCalibration found;
   found.factor = factor_for(rate, settings.design_probability);
   const double mean = rate(found.factor);
-  const double count = static_cast<double>(backgrounds.size());
+  const auto count = static_cast<double>(backgrounds.size());
   found.relative_error = std::sqrt(std::max(0.0, squares / count - mean * mean) / count) / mean;
   return found;
 }

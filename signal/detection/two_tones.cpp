@@ -45,7 +45,7 @@ class Correlator {
   // Of every record, with the phase of the middle sample.
   Sums at(double bin) const {
     const double off = bin - near_bin_, middle = 0.5 * (count() - 1.0);
-    const double size = static_cast<double>(block_);
+    const auto size = static_cast<double>(block_);
     const std::complex<double> step = unit_phasor(-off * size / count());
     const std::complex<double> first = unit_phasor(-off * (0.5 * (size - 1.0) - middle) / count());
     const double whole = dirichlet(off, block_), scale = whole > 0.0 ? size / whole : 1.0;

@@ -79,7 +79,7 @@ double peak_side_lobe_dB(const std::vector<double>& weights) {
 WindowFigures window_figures(const std::vector<double>& weights) {
   check_window(weights);
   double sum = 0.0, squares = 0.0, moment = 0.0, square_moment = 0.0, plain_moment = 0.0;
-  const double count = static_cast<double>(weights.size());
+  const auto count = static_cast<double>(weights.size());
   for (std::size_t n = 0; n < weights.size(); ++n) {
     const double w = weights[n];
     const double t = static_cast<double>(n) - 0.5 * count;

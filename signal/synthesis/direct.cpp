@@ -22,7 +22,7 @@ struct Row {
 
 // Half of the lanes, whose nine variables stay in registers.
 constexpr int kHalf = kLanes / 2;
-typedef double HalfLanes __attribute__((vector_size(kHalf * sizeof(double))));
+using HalfLanes [[gnu::vector_size(kHalf * sizeof(double))]] = double;
 
 FANBEAM_LANES_INLINE void load_half(const double* from, HalfLanes& lanes) {
   std::memcpy(&lanes, from, sizeof(lanes));

@@ -16,11 +16,11 @@ template <typename Real>
 struct LanesOf;
 template <>
 struct LanesOf<float> {
-  typedef float Type __attribute__((vector_size(32)));
+  using Type [[gnu::vector_size(32)]] = float;
 };
 template <>
 struct LanesOf<double> {
-  typedef double Type __attribute__((vector_size(64)));
+  using Type [[gnu::vector_size(64)]] = double;
 };
 
 template <typename Real>

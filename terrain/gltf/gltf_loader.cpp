@@ -26,7 +26,7 @@ struct Patch {
 };
 
 bool is_drawn(const tinygltf::Primitive& primitive) {
-  return primitive.mode >= TINYGLTF_MODE_TRIANGLES && primitive.attributes.count("POSITION") > 0;
+  return primitive.mode >= TINYGLTF_MODE_TRIANGLES && primitive.attributes.contains("POSITION");
 }
 
 // Corners in the order of section 3.7.2.1 of the specification.

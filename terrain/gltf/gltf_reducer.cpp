@@ -198,7 +198,7 @@ class Reducer {
     const auto most = std::numeric_limits<std::int32_t>::max();
     const bool fits = value.is_number_unsigned() && value.get<std::uint64_t>() <= most;
     if (member.refers_to != nullptr) {
-      const std::size_t count = counts_.count(member.refers_to) ? counts_[member.refers_to] : 0;
+      const std::size_t count = counts_.contains(member.refers_to) ? counts_[member.refers_to] : 0;
       if (!fits || value.get<std::uint64_t>() >= count)
         report(ErrorClass::ref, path, shown(value),
                "an index below the " + std::to_string(count) + " " + member.refers_to);

@@ -163,7 +163,7 @@ void ElevationRaster::find_height_range(const std::string& file) {
   lowest_m_ = kHighest_m;
   highest_m_ = kLowest_m;
   for (std::size_t i = 0; i < band_.samples.size(); ++i) {
-    const double sample_m = static_cast<double>(band_.samples[i]);
+    const auto sample_m = static_cast<double>(band_.samples[i]);
     if (std::isnan(sample_m)) continue;
     if (sample_m < kLowest_m || sample_m > kHighest_m)
       refuse_range(file, "height_m at " + post_name(i, band_.width), core::number_text(sample_m),

@@ -46,9 +46,9 @@ void assign_rest(const std::vector<NamedPlace>& targets, const std::vector<Named
   for (const auto& pair : pairs) taken.insert(pair.second);
   std::vector<NamedPlace> free_targets, free_tracks;
   for (const NamedPlace& one : targets)
-    if (pairs.count(one.id) == 0) free_targets.push_back(one);
+    if (!pairs.contains(one.id)) free_targets.push_back(one);
   for (const NamedPlace& one : tracks)
-    if (taken.count(one.id) == 0) free_tracks.push_back(one);
+    if (!taken.contains(one.id)) free_tracks.push_back(one);
   CostMatrix costs(static_cast<int>(free_targets.size()), static_cast<int>(free_tracks.size()),
                    std::numeric_limits<double>::infinity());
   for (int row = 0; row < costs.rows; ++row)

@@ -54,6 +54,7 @@ struct Crossings {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-size): a loop that was measured as it stands.
 FANBEAM_HOT(void, cut_ground,
             (const terrain::HeightField& ground, const glm::dvec2& origin_m,
              const glm::dvec2& along, double far_m, double zero_m, GroundCut& cut),

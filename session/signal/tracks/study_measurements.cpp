@@ -164,7 +164,7 @@ StudyPart study_buffer(const core::HighwayRadar& given, std::uint64_t seed) {
       plot.series[i].y.push_back(values[i]);
     }
   }
-  part.plots.push_back({"buffer", plot});
+  part.plots.emplace_back("buffer", plot);
   return part;
 }
 
@@ -198,7 +198,7 @@ StudyPart study_noise_figure(const core::HighwayRadar& given, std::uint64_t seed
       plot.series[i].y.push_back(values[i]);
     }
   }
-  part.plots.push_back({"noise-figure", plot});
+  part.plots.emplace_back("noise-figure", plot);
   return part;
 }
 
@@ -259,8 +259,8 @@ StudyPart study_reflections(const core::HighwayRadar& given, std::uint64_t seed)
     }
     part.text += "\n";
   }
-  part.plots.push_back({"reflections-range", range});
-  part.plots.push_back({"reflections-speed", speed});
+  part.plots.emplace_back("reflections-range", range);
+  part.plots.emplace_back("reflections-speed", speed);
   return part;
 }
 

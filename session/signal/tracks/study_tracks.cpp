@@ -241,7 +241,7 @@ StudyPart study_crossing(std::uint64_t seed) {
       plot.series[i].y.push_back(values[i]);
     }
   }
-  part.plots.push_back({"crossing", plot});
+  part.plots.emplace_back("crossing", plot);
   return part;
 }
 
