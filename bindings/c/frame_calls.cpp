@@ -147,9 +147,9 @@ fanbeam_status fanbeam_latest_frame(fanbeam_session* session, fanbeam_frame* fra
                                     size_t cscope_count) noexcept {
   return bindings::guarded([&] {
     Arguments arguments;
-    arguments.there(session, "session", kOpened);
+    const bool opened = arguments.there(session, "session", kOpened);
     arguments.sized(frame, "frame");
-    if (session != nullptr) {
+    if (opened) {
       arguments.room(bscope, bscope_count, session->shape.bscope(), "bscope");
       arguments.room(cscope, cscope_count, session->shape.cscope(), "cscope");
       check_cscope(*session, cscope != nullptr, "cscope", arguments);
