@@ -2,64 +2,105 @@
 
 #include <algorithm>
 
+#include "core/median.h"
+
 namespace fanbeam::live {
 namespace {
 
-constexpr std::size_t kFrames = 100;
-constexpr double kMostPeriods = 2.0;
-constexpr double kRoom = 0.9;    // of its share, that a finer step may be expected to take
-constexpr double kFewest = 4.0;  // frames to look at, however slow the rate
+constexpr double kMostLoads = 1000.0;
+// Of late frames: paid off by each frame; up to which a step may be finer, above which it is coarser; at most.
+constexpr double kPaidOff = 0.009, kForFiner = 4.0, kForCoarser = 5.0, kMostDebt = 7.0;
+constexpr double kMayBeLate = 0.007;  // with a finer step
+constexpr double kRoom = 0.95;        // of the share, that a finer step may be expected to take
+constexpr double kMostPatience_s = 320.0;
 
 double effort_of(double samples) { return samples + 0.5; }
 
 }  // namespace
 
-// A fast rate has more than a hundred in the time that is looked at, a slow one fewer.
-void Pace::keep(const Taken& frame) {
-  taken_.push_back(frame);
-  while (taken_.size() > kFrames && taken_.front().at_s < frame.at_s - look_s()) taken_.pop_front();
+void Pace::forget() {
+  loads_.clear();
+  std::fill(refused_.begin(), refused_.end(), Refused{});
+  heaviest_load_s_ = 0.0;
 }
 
-bool Pace::too_slow() const {
-  const auto last = static_cast<std::ptrdiff_t>(std::min(taken_.size(), kFrames));
-  const auto over = [&](double limit_s) {
-    return std::count_if(taken_.end() - last, taken_.end(),
-                         [&](const Taken& taken) { return taken.frame_s > limit_s; });
-  };
-  return over(kShare * period_s_) > 1 || over(kMostPeriods * period_s_) > 0;
+void Pace::keep(double frame_s) {
+  loads_.push_back(frame_s / effort_of(samples()));
+  if (static_cast<double>(loads_.size()) > kMostLoads) loads_.pop_front();
+  debt_ = std::max(0.0, debt_ - kPaidOff);
+  if (!is_late(frame_s)) return;
+  debt_ = std::min(kMostDebt, debt_ + 1.0);
+  ++late_;
 }
 
-double Pace::look_s() const { return std::max(kLook_s, kFewest * period_s_); }
+std::size_t Pace::frames_in(double span_s, double fewest) const {
+  return static_cast<std::size_t>(std::clamp(span_s / period_s_, fewest, kMostLoads));
+}
 
-double Pace::usual_s(double now_s) const {
-  if (now_s - taken_.front().at_s <= 0.9 * look_s()) return 0.0;
-  double slowest_s = 0.0, next_s = 0.0;
-  for (const Taken& taken : taken_) {
-    if (taken.at_s < now_s - look_s()) continue;
-    next_s = std::max(next_s, std::min(slowest_s, taken.frame_s));
-    slowest_s = std::max(slowest_s, taken.frame_s);
-  }
-  return next_s;
+std::vector<double> Pace::newest_loads(std::size_t count) const {
+  const auto kept = static_cast<std::ptrdiff_t>(std::min(count, loads_.size()));
+  return {loads_.end() - kept, loads_.end()};
+}
+
+bool Pace::is_late_with(std::size_t step, double load_s) const {
+  return is_late(load_s * effort_of(ladder_[step]));
+}
+
+bool Pace::has_fallen() {
+  const std::size_t enough = frames_in(10.0, 16.0);
+  if (loads_.size() < enough) return false;
+  const double load_s = core::median(newest_loads(enough));
+  heaviest_load_s_ = std::max(heaviest_load_s_, load_s);
+  return load_s < 0.8 * heaviest_load_s_;
+}
+
+bool Pace::has_jumped(double now_s) {
+  std::vector<double> loads_s = newest_loads(5);
+  std::sort(loads_s.rbegin(), loads_s.rend());
+  if (loads_s.size() < 3 || !is_late_with(step_, loads_s[2])) return false;
+  std::size_t step = step_;
+  while (step > 0 && is_late_with(step, loads_s[0])) --step;
+  if (step == step_) return true;
+  go_coarser(now_s, step);
+  loads_.clear();
+  heaviest_load_s_ = loads_s[2];
+  return true;
+}
+
+bool Pace::has_room(std::size_t step) const {
+  const auto late = std::count_if(loads_.begin(), loads_.end(), [&](double load_s) {
+    return is_late_with(step, load_s / kRoom);
+  });
+  return static_cast<double>(late) <=
+         std::max(1.0, kMayBeLate * static_cast<double>(loads_.size()));
+}
+
+void Pace::go_coarser(double now_s, std::size_t step) {
+  Refused& refused = refused_[step_];
+  refused.patience_s = std::clamp(2.0 * refused.patience_s, kPatience_s, kMostPatience_s);
+  refused.until_s = now_s + refused.patience_s;
+  step_ = step;
+  late_ = 0;
+}
+
+void Pace::go_finer(double now_s) {
+  std::size_t step = step_;
+  while (step + 1 < ladder_.size() && now_s >= refused_[step + 1].until_s && has_room(step + 1))
+    ++step;
+  if (step == step_) return;
+  step_ = step;
+  late_ = 0;
+  loads_.clear();
 }
 
 double Pace::after(double now_s, double frame_s) {
-  keep({now_s, frame_s});
-  if (too_slow()) {
-    if (step_ == 0) return samples();
-    refused_step_ = step_;
-    refused_until_s_ = now_s + kPatience_s;
-    go_to(step_ - 1);
-    return samples();
-  }
-  const double usual_s = this->usual_s(now_s);
-  if (!(usual_s > 0.0)) return samples();
-  const std::size_t end =
-      now_s < refused_until_s_ ? std::min(refused_step_, ladder_.size()) : ladder_.size();
-  std::size_t step = step_;
-  while (step + 1 < end && usual_s * effort_of(ladder_[step + 1]) / effort_of(ladder_[step_]) <=
-                               kRoom * kShare * period_s_)
-    ++step;
-  if (step != step_) go_to(step);
+  keep(frame_s);
+  if (has_fallen()) forget();
+  if (has_jumped(now_s)) return samples();
+  if (debt_ > kForCoarser && late_ > 1 && step_ > 0)
+    go_coarser(now_s, step_ - 1);
+  else if (debt_ <= kForFiner && loads_.size() >= frames_in(2.0, 4.0))
+    go_finer(now_s);
   return samples();
 }
 

@@ -1,7 +1,10 @@
 // The controller of sampling, at the clock of the test.
 #include "live/pace.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <vector>
 
 using fanbeam::live::Pace;
 
@@ -35,19 +38,38 @@ TEST_CASE("Sampling grows to what the period has room for, and no further", "[pa
   CHECK(rich.samples() == 8);
 }
 
-TEST_CASE(
-    "The second of a hundred frames over its share, or a very slow one, and the next is coarser",
-    "[pace]") {
+// The second of a hundred made it coarser, which a sampling that holds the hundredth has every minute.
+TEST_CASE("More late frames than a hundredth make the next one a step coarser, fewer do not",
+          "[pace]") {
+  const auto coarser_after = [](int apart) {
+    Pace pace(kLadder, kDeadline_s);
+    double now_s = 0.0;
+    fly(pace, now_s, 30.0, 0.01, 0.01);
+    int late = 0;
+    while (pace.samples() == 4 && late < 160) {
+      for (int frame = 1; frame < apart; ++frame) pace.after(now_s += kDeadline_s, 0.05);
+      pace.after(now_s += kDeadline_s, 0.081);
+      ++late;
+    }
+    return late;
+  };
+  CHECK(coarser_after(120) == 160);
+  CHECK(coarser_after(60) <= 12);
+  CHECK(coarser_after(20) <= 7);
+}
+
+TEST_CASE("Three late frames of five, and the next is as coarse as they need", "[pace]") {
   Pace pace(kLadder, kDeadline_s);
   double now_s = 0.0;
   fly(pace, now_s, 30.0, 0.01, 0.01);
-  // One in a hundred is what the 99th percentile leaves.
-  CHECK(pace.after(now_s, 0.081) == 4);
-  fly(pace, now_s, 9.0, 0.01, 0.01);
-  CHECK(pace.samples() == 4);
-  CHECK(pace.after(now_s, 0.081) == 2);
-  CHECK(pace.after(now_s + 0.1, 0.21) == 1);
-  CHECK(pace.after(now_s + 0.2, 5.0) == 1);
+  for (const double frame_s : {0.081, 0.05, 5.0, 0.05}) CHECK(pace.after(now_s, frame_s) == 4);
+  fly(pace, now_s, 1.0, 0.01, 0.01);
+  for (const double frame_s : {0.1, 0.05, 0.1}) CHECK(pace.after(now_s, frame_s) == 4);
+  CHECK(pace.after(now_s, 0.1) == 2);
+  // By now more than five are owed: two are enough.
+  CHECK(pace.after(now_s, 0.21) == 2);
+  CHECK(pace.after(now_s, 0.21) == 1);
+  for (int frame = 0; frame < 5; ++frame) CHECK(pace.after(now_s, 5.0) == 1);
 }
 
 TEST_CASE("What does not depend on the samples does not keep the sampling coarse", "[pace]") {
@@ -77,14 +99,13 @@ TEST_CASE("Sampling grows at ninety frames a second and at a thousand too", "[pa
     };
     fly(30.0);
     CHECK(pace.samples() == 8);
-    // Two late ones are too many among a hundred, not farther apart.
     for (int second = 0; second < 5; ++second) {
       pace.after(now_s, 0.9 / rate_Hz);
       fly(120.0 / rate_Hz);
     }
     CHECK(pace.samples() == 8);
-    pace.after(now_s, 0.9 / rate_Hz);
-    CHECK(pace.after(now_s + 1.0 / rate_Hz, 0.9 / rate_Hz) == 4);
+    for (int frame = 0; frame < 2; ++frame) CHECK(pace.after(now_s, 0.9 / rate_Hz) == 8);
+    CHECK(pace.after(now_s, 0.9 / rate_Hz) == 4);
   }
 }
 
@@ -116,7 +137,7 @@ TEST_CASE("What is too slow outside the volume is coarser there alone", "[pace]"
   ByVolume flight;
   flight.fly(300, false);
   REQUIRE(flight.samples() == 4);
-  CHECK(flight.fly(50, true) == 2);
+  CHECK(flight.fly(50, true) == 3);
   CHECK(flight.samples() == 2);
   // Back inside no frame is late, and half a second later they are as fine as before.
   CHECK(flight.fly(10, false) == 0);
@@ -127,7 +148,7 @@ TEST_CASE("What is too slow outside the volume is coarser there alone", "[pace]"
   CHECK(flight.fly(50, true) == 1);
   CHECK(flight.fly(150, false) == 0);
   CHECK(flight.samples() == 4);
-  CHECK(flight.fly(50, true) == 2);
+  CHECK(flight.fly(50, true) == 3);
 }
 
 TEST_CASE("Frames in and out of the volume by turns become as coarse as outside needs", "[pace]") {
@@ -139,18 +160,34 @@ TEST_CASE("Frames in and out of the volume by turns become as coarse as outside 
     late += flight.fly(1, true) + flight.fly(1, false);
     if (i > 5) CHECK(flight.samples() == 2);
   }
-  CHECK(late == 2);
+  CHECK(late == 3);
   flight.fly(10, false);
   CHECK(flight.samples() == 4);
 }
 
-TEST_CASE("A step that was too slow is left alone for ten seconds", "[pace]") {
-  Pace pace(kLadder, kDeadline_s);
+// Four samples take more than two let expect.
+TEST_CASE(
+    "A step that was too slow is left alone for ten seconds, then for twice as long each time",
+    "[pace]") {
+  Pace pace({2, 4}, kDeadline_s);
   double now_s = 0.0;
-  fly(pace, now_s, 30.0, 0.01, 0.01);
-  pace.after(now_s, 0.25);
+  std::vector<double> tried_s;
+  const auto fly = [&](double span_s, double factor) {
+    for (const double end_s = now_s + span_s; now_s < end_s; now_s += kDeadline_s) {
+      const double before = pace.samples();
+      if (pace.after(now_s, factor * (before == 4 ? 0.081 : 0.04)) > before)
+        tried_s.push_back(now_s);
+    }
+  };
+  fly(1000.0, 1.0);
+  REQUIRE(tried_s.size() >= 7);
+  for (std::size_t i = 1; i < tried_s.size(); ++i)
+    CHECK(tried_s[i] - tried_s[i - 1] ==
+          Approx(std::min(320.0, Pace::kPatience_s * std::exp2(static_cast<double>(i) - 1.0)))
+              .epsilon(0.0)
+              .margin(0.5));
   CHECK(pace.samples() == 2);
-  CHECK(fly(pace, now_s, 9.5, 0.01, 0.01) == 0);
-  fly(pace, now_s, 3.0, 0.01, 0.01);
+  // Until the load falls.
+  fly(30.0, 0.7);
   CHECK(pace.samples() == 4);
 }
