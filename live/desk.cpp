@@ -256,6 +256,7 @@ std::string message_of(const LiveFrame& frame) {
                   {"errors", errors_json(frame.errors)},
                   {"frame_ms", frame.frame_ms},
                   {"pose_age_ms", frame.pose_age_ms},
+                  {"began_s", frame.began_s},
                   {"outside_volume", frame.outside_volume},
                   {"stale", frame.stale},
                   {"low_dB", frame.low_dB},

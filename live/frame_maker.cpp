@@ -90,6 +90,7 @@ std::optional<FrameMaker::Made> FrameMaker::make(const Tick& tick, const Sightin
   frame->errors = status_.errors;
   frame->frame_ms = 1e3 * frame_s;
   frame->pose_age_ms = status_.pose_age_ms;
+  frame->began_s = std::chrono::duration<double>(from.time_since_epoch()).count();
   tell(frame_s, processor_s() - spent_s);
   const bool outside = frame->outside_volume;
   if (settings_.dress) settings_.dress(*frame);

@@ -39,6 +39,7 @@ struct LiveFrame {
   double samples = 0.0;  // as fanbeam render --rays-per-cell takes it
   double frame_ms = 0.0;
   double pose_age_ms = 0.0;               // between the pose's arrival and the frame's beginning
+  double began_s = 0.0;                   // then, by CLOCK_MONOTONIC; of a stale one: the picture's
   bool outside_volume = false;            // made by a plan of its own (session.h)
   bool stale = false;                     // shown once more, as no pose came for a second
   std::optional<PictureErrors> errors{};  // of its sampling, as far as they were known

@@ -175,7 +175,7 @@ void SharedFrames::write(const LiveFrame& frame) {
         frame.pose.position.height_m, attitude.roll_rad, attitude.pitch_rad, attitude.heading_rad,
         1e-3 * frame.frame_ms, 1e-3 * frame.pose_age_ms, frame.samples,
         frame.outside_volume ? 1.0 : 0.0, frame.cscope_top_rad, frame.low_dB, frame.high_dB,
-        errors.bscope_grey, errors.cscope_grey}) {
+        errors.bscope_grey, errors.cscope_grey, frame.began_s}) {
     put(slot + at, value);
     at += sizeof value;
   }

@@ -44,6 +44,10 @@ TEST_CASE("F13 a second without a pose shows the last picture once more, as out 
   const live::LiveFrame &last = *frames[frames.size() - 3], &stale = *frames[frames.size() - 2];
   CHECK(stale.pose_age_ms > 1000.0);
   CHECK(last.pose_age_ms < stale.pose_age_ms);
+  // Readers time frames by that.
+  CHECK(frames[0]->began_s > std::chrono::duration<double>(begin.time_since_epoch()).count());
+  CHECK(last.began_s > frames[0]->began_s);
+  CHECK(stale.began_s == last.began_s);
   CHECK(stale.bscope.pixels == last.bscope.pixels);
   CHECK(stale.cscope.pixels == last.cscope.pixels);
   CHECK(stale.pose.position.latitude_rad == last.pose.position.latitude_rad);

@@ -90,6 +90,7 @@ TEST_CASE("A frame is the PNG of its picture", "[desk]") {
   frame->number = 7;
   frame->bscope = {2, 1, {10, 20}};
   frame->cscope = {1, 2, {30, 40}};
+  frame->began_s = 1234.5;
   frame->low_dB = -41.0;
   frame->high_dB = 10.0;
   frame->cscope_top_rad = -0.1;
@@ -109,6 +110,7 @@ TEST_CASE("A frame is the PNG of its picture", "[desk]") {
   CHECK(message.substr(end + 1) == std::string("\x0a\x14\x1e\x28"));
   // Levels and edges are this frame's, whatever the sensor's are by now.
   CHECK(head["low_dB"] == -41.0);
+  CHECK(head["began_s"] == 1234.5);
   CHECK(head["high_dB"] == 10.0);
   CHECK(head["cscope_top_deg"].get<double>() == Approx(-0.1 * 180.0 / core::kPi));
   office.folder.write("raised.png", office.desk.answer(get("/frame/cscope.png?gain_dB=10.2")).body);

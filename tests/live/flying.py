@@ -5,6 +5,7 @@ import re
 import signal
 import subprocess
 import threading
+import time
 import urllib.request
 
 FOOT_m, LENGTH_s, SPEED_mps, SLOPE_deg = 0.3048, 65.0, 70.0, 3.8
@@ -31,7 +32,7 @@ def end(live):
 
 
 class Viewer(threading.Thread):
-    """Reads frames as a page does, and keeps what they say of themselves."""
+    """Reads frames as a page does, and keeps what they say of themselves and how long after their beginning they are here."""
 
     def __init__(self, url):
         super().__init__(daemon=True)
@@ -42,8 +43,11 @@ class Viewer(threading.Thread):
         try:
             with urllib.request.urlopen(f"{self.url}frames") as stream:
                 while size := stream.read(4):
-                    head = json.loads(stream.read(int.from_bytes(size, "little")).split(b"\n", 1)[0])
-                    self.heads.append({key: head[key] for key in ("number", "frame_ms", "pose_age_ms", "samples", "errors")})
+                    message = stream.read(int.from_bytes(size, "little"))
+                    arrived_s = time.monotonic()
+                    head = json.loads(message.split(b"\n", 1)[0])
+                    self.heads.append({"sink_ms": 1e3 * (arrived_s - head["began_s"])} | {key: head[key] for key in (
+                        "number", "frame_ms", "pose_age_ms", "samples", "errors", "stale")})
         except (OSError, ValueError):
             pass  # the server ended
 

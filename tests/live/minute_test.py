@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """A minute of the real program under what wears it out (hard cases F11 to F16, F19).
 
-usage: minute_test.py FANBEAM [SECONDS]     (./dev live-test)
+usage: minute_test.py FANBEAM [SECONDS]     (./dev live-test; ./dev soak for 10 minutes and for an hour)
 
 A thousand packets a second against sixteen frames, one in twenty of them garbage, impossible, late, from the
 far future or a jump; three viewers, of which one reads a byte a second and one nothing at all.

@@ -116,6 +116,7 @@ live::LiveFrame particular_frame(std::uint64_t number) {
   frame.pose.q_NB = core::quaternion_from({0.1, -0.05, 2.5});
   frame.frame_ms = 41.0;
   frame.pose_age_ms = 67.0;
+  frame.began_s = 1234.5;
   frame.samples = 4.0;
   frame.outside_volume = true;
   frame.cscope_top_rad = -0.0175;
@@ -201,7 +202,7 @@ TEST_CASE("A slot of shared memory is what its table says", "[shared_frames]") {
   CHECK(Numbers{number(72), number(80), number(88), number(96)} ==
         Numbers{1e-3 * 41.0, 1e-3 * 67.0, 4.0, 1.0});
   CHECK(Numbers{number(104), number(112), number(120)} == Numbers{-0.0175, -40.0, 3.0});
-  CHECK(Numbers{number(128), number(136)} == Numbers{1.5, 2.5});
+  CHECK(Numbers{number(128), number(136), number(144)} == Numbers{1.5, 2.5, 1234.5});
   CHECK(reader.pixels(slot + 192, 164 * 524) == frame.bscope.pixels);
   CHECK(reader.pixels(slot + 192 + 164 * 524, 164 * 300) == frame.cscope.pixels);
 }
