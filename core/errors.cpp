@@ -36,12 +36,7 @@ std::string number_text(double value) {
   char* const end = buffer.data() + buffer.size();
   const auto result = plain ? std::to_chars(buffer.data(), end, value, std::chars_format::fixed)
                             : std::to_chars(buffer.data(), end, value);
-  std::string text(buffer.data(), result.ptr);
-  const std::size_t exponent = text.find('e');
-  if (exponent == std::string::npos) return text;
-  const bool negative = text[exponent + 1] == '-';
-  const std::size_t digits = text.find_first_not_of("+-0", exponent + 1);
-  return text.replace(exponent + 1, digits - exponent - 1, negative ? "-" : "");
+  return {buffer.data(), result.ptr};
 }
 
 std::string to_string(const Problem& problem) {

@@ -38,7 +38,7 @@ struct Problem {
 std::string to_string(const Problem& problem);
 
 // Numbers in messages: shortest form that reads back to the same value, independent of the locale;
-// without an exponent from 1e-4 to 1e7, and with one as people write it: 1e7, not 1e+07.
+// without an exponent from 1e-4 to 1e7.
 std::string number_text(double value);
 
 // Thrown when an input has at least one error; carries the warnings found beside it too.

@@ -3,12 +3,25 @@
 #include <cmath>
 
 namespace fanbeam::core {
+namespace {
+
+// As people write it: 1e7, not 1e+07.
+std::string limit_text(double limit) {
+  std::string text = number_text(limit);
+  const std::size_t exponent = text.find('e');
+  if (exponent == std::string::npos) return text;
+  const bool negative = text[exponent + 1] == '-';
+  const std::size_t digits = text.find_first_not_of("+-0", exponent + 1);
+  return text.replace(exponent + 1, digits - exponent - 1, negative ? "-" : "");
+}
+
+}  // namespace
 
 std::string to_string(const NumberRange& range) {
   const bool has_low = range.low > -std::numeric_limits<double>::max();
   const bool has_high = range.high < std::numeric_limits<double>::max();
   if (!has_low && !has_high) return "a finite number";
-  const std::string low = number_text(range.low), high = number_text(range.high);
+  const std::string low = limit_text(range.low), high = limit_text(range.high);
   if (range.above_low) return ("above " + low).append(has_high ? ", at most " + high : "");
   if (!has_high) return "at least " + low;
   if (!has_low) return "at most " + high;

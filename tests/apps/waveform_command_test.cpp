@@ -70,6 +70,6 @@ TEST_CASE("The waveform command tells what does not go together in the units of 
   told("--frequency 0.2 --bandwidth 250", "--bandwidth = 250: expected below the frequency");
   told("stepped --shift -300000", "--shift = 300000: expected below the bandwidth");
   // The number of samples is no rate.
-  told("--sample-rate 100000", "--sample-rate = 5.12e8 samples: expected at most 1e8 in a frame");
+  told("--sample-rate 100000", "--sample-rate = 5.12e+08 samples: expected at most 1e8 in a frame");
   told("--chirps 65536 --slots 256", "--chirps x slots = 16777216: expected 1 to 1000000");
 }

@@ -80,7 +80,7 @@ def test_numbers_that_do_not_go_together_are_told_in_SI_as_they_were_given(lone_
     with pytest.raises(fanbeam.InputError) as told:
         fanbeam.signal.waveform("chirp-sequence", interval=10e-6)
     (problem,) = told.value.problems
-    assert (problem.field, problem.value, problem.expected) == ("interval", "1e-5", "at least the ramp")
+    assert (problem.field, problem.value, problem.expected) == ("interval", "1e-05", "at least the ramp")
     with pytest.raises(fanbeam.InputError, match="hop = 700000: expected a parameter of triangle"):
         fanbeam.signal.waveform("triangle", hop=700e3)
     with pytest.raises(fanbeam.InputError, match="frequency = 77000000000: expected the scene's sensor's 35"):

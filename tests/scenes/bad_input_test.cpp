@@ -86,9 +86,9 @@ TEST_CASE("T06 scene values outside their domain, each class by its name", "[bad
   check_problems("longitude_deg = 10.0,", "longitude_deg = inf,",
                  "3:33: E-NONFINITE scene.origin.longitude_deg = inf: expected -180 to 180");
   check_problems("longitude_deg = 10.0,", "longitude_deg = 1e300,",
-                 "3:33: E-RANGE scene.origin.longitude_deg = 1e300: expected -180 to 180");
+                 "3:33: E-RANGE scene.origin.longitude_deg = 1e+300: expected -180 to 180");
   check_problems("height_m = 50.0", "height_m = 1e9",
-                 "3:55: E-RANGE scene.origin.height_m = 1e9: expected -1000 to 9000");
+                 "3:55: E-RANGE scene.origin.height_m = 1e+09: expected -1000 to 9000");
   check_problems("elevation_m = 60.0", "elevation_m = nan",
                  "13:70: E-NONFINITE runway[0].second.elevation_m = nan: expected -500 to 6000");
   check_problems("visibility_m = 400.0", "visibility_m = -3",

@@ -420,7 +420,7 @@ TEST_CASE("R17 absurd sizes are E-LIMIT or E-RANGE at once, without allocating",
   check_problems("spacing_m = 50.0", "spacing_m = 0",
                  "8:1: E-RANGE terrain.spacing_m = 0: expected 0.5 to 1000");
   check_problems("half_extent_m = 2500.0", "half_extent_m = 1e12",
-                 "7:1: E-RANGE terrain.half_extent_m = 1e12: expected 10 to 200000");
+                 "7:1: E-RANGE terrain.half_extent_m = 1e+12: expected 10 to 200000");
   check_problems(
       "[weather]",
       "[[line]]\nfrom = { runway = \"36\", behind_threshold_m = 0.0 }\nto = { runway = \"36\", "
@@ -428,7 +428,7 @@ TEST_CASE("R17 absurd sizes are E-LIMIT or E-RANGE at once, without allocating",
       "1999.0 }\nspacing_m = 0.01\n[weather]",
       "22:1: E-LIMIT line = \"line\" of 199901 points: expected at most 100000: a wider spacing_m");
   check_problems("[weather]", "[accuracy]\nrays_per_cell = 1e12\n[weather]",
-                 "23:1: E-RANGE accuracy.rays_per_cell = 1e12: expected 0, or 0.3 to 10000");
+                 "23:1: E-RANGE accuracy.rays_per_cell = 1e+12: expected 0, or 0.3 to 10000");
   CHECK(tests::processor_time_s() - begin_s < tests::kAtOnce_s);
 }
 
