@@ -154,7 +154,7 @@ TEST_CASE("A session of B-scopes alone is planned for them, and refuses C-scopes
   CHECK(tests::awaited(c.get(), newest, buffers) == FANBEAM_BAD_INPUT);
   CHECK((buffers == untouched));
   REQUIRE(fanbeam_submit_pose(c.get(), &pose) == FANBEAM_OK);
-  buffers.cscope = {};  // NULL from here on
+  buffers.cscope = decltype(buffers.cscope)();  // NULL from here on
   CHECK(tests::awaited(c.get(), newest, buffers) == FANBEAM_OK);
   CHECK((buffers.bscope == alone.bscope));
 }
