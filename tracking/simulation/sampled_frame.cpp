@@ -242,7 +242,7 @@ std::vector<RadarMeasurement> SampledRadar::measure(const core::HighwayScenario&
       if (!left.empty() && agree(beats.up[left[0].up], beats.down[left[0].down]))
         add(apart(model, beats, {left[0]}, 0, detections[i]), found);
     }
-  tell_shared(found);
+  tell_shared(beats, found);
   std::vector<RadarMeasurement> result;
   for (const Found& one : found) result.push_back(measured(beats, one));
   return result;

@@ -85,7 +85,7 @@ class SampledRadar {
     double merged_bins = 0.0;  // how far a beat of it may be off that is another target's too
   };
   void add(const std::vector<Found>& more, std::vector<Found>& found) const;
-  static void tell_shared(std::vector<Found>& found);
+  void tell_shared(const SampledBeats& beats, std::vector<Found>& found) const;
   static SampledBeats left_over(SampledBeats beats, const std::vector<Found>& found);
   void find_directions(std::vector<Beat>& beats) const;
   // Of two that are one plane wave each: squared, over what it may be.

@@ -152,13 +152,26 @@ SampledBeats SampledRadar::left_over(SampledBeats beats, const std::vector<Found
   return beats;
 }
 
-// A beat that two targets take is of both.
-void SampledRadar::tell_shared(std::vector<Found>& found) {
+// A beat that two targets take is of both, its direction too: one that only one takes is that one's.
+void SampledRadar::tell_shared(const SampledBeats& beats, std::vector<Found>& found) const {
   for (Found& one : found) {
-    const auto takers = std::count_if(found.begin(), found.end(), [&](const Found& other) {
-      return other.up == one.up || other.down == one.down;
-    });
-    if (takers > 1) one.merged_bins = std::max(one.merged_bins, kMerged_bins);
+    const auto others = [&](bool up, bool down) {
+      return std::any_of(found.begin(), found.end(), [&](const Found& other) {
+        return &other != &one && (!up || other.up == one.up) && (!down || other.down == one.down);
+      });
+    };
+    const bool up = others(true, false), down = others(false, true);
+    if (!up && !down) continue;
+    one.merged_bins = std::max(one.merged_bins, kMerged_bins);
+    if (radar_.array_elements < 2 || others(true, true)) continue;  // told apart by direction
+    const Beat& own = up ? beats.down[one.down] : beats.up[one.up];
+    if (up != down && own.lone_wave) {
+      one.azimuth_rad = own.azimuth_rad;
+      one.azimuth_sigma_rad = own.azimuth_sigma_rad;
+      one.azimuth_systematic_rad = 0.0;
+    } else {
+      one.azimuth_systematic_rad = std::max(one.azimuth_systematic_rad, kAgree * beam_sine());
+    }
   }
 }
 
