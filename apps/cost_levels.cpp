@@ -23,10 +23,9 @@ constexpr renderer::Products kBscopeAlone = {.bscope = true, .cscope = false};
 // The whole picture but for its range response, which is given to powers here: shipped sensors show
 // ideal cells, and a sweep has none.
 renderer::Effects whole_picture(const measure::CostBench& bench) {
-  core::EffectPlan plan = bench.scene.plan;
-  for (core::EffectDecision& decision : plan.decisions)
-    if (decision.effect == core::EffectId::range_response) decision.on = false;
-  return renderer::without_draws(renderer::effects_of(plan, 0));
+  renderer::Effects effects = renderer::without_draws(renderer::effects_of(bench.scene.plan, 0));
+  effects.on.erase(core::EffectId::range_response);
+  return effects;
 }
 
 // Converged powers behind the sweep. `thin` has its range cells in kThinParts.
@@ -64,13 +63,14 @@ class GreyDistance {
 };
 
 void measure_pictures(const measure::CostBench& bench, const sensors::Sensor& sensor,
-                      const GreyDistance& distance, std::vector<measure::LevelStep>& steps) {
+                      const renderer::Effects& effects, const GreyDistance& distance,
+                      std::vector<measure::LevelStep>& steps) {
   const renderer::FramePose pose = bench.scene.frame_pose(bench.frames.front());
   const renderer::RangeResponse response(sensor);
   std::vector<renderer::FrameRenderer> renderers;
   for (const double fineness : bench.effort.rays)
     renderers.emplace_back(bench.scene.world, measure::sampling_of(measure::Way::rays, fineness),
-                           kBscopeAlone, whole_picture(bench));
+                           kBscopeAlone, effects);
   const auto render = [&](const renderer::FrameRenderer& frames) {
     std::vector<double> power_W = frames.render(pose).bscope_W;
     response.apply(power_W);
@@ -136,7 +136,8 @@ std::vector<measure::LevelStep> measure_levels(const measure::CostBench& bench) 
     return GreyDistance(sensor, reference_W(bench, *thin, sensor, effects));
   };
   std::vector<measure::LevelStep> steps;
-  measure_pictures(bench, sensor, distance(whole_picture(bench)), steps);
+  const renderer::Effects whole = whole_picture(bench);
+  measure_pictures(bench, sensor, whole, distance(whole), steps);
   measure_signals(bench, distance(renderer::Effects{}), steps);
   return steps;
 }

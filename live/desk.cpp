@@ -21,11 +21,6 @@ namespace {
 constexpr core::JsonLimits kLimits{8, 100};
 constexpr const char *kWeather = "/api/weather", *kSensor = "/api/sensor", *kCell = "/api/cell";
 
-// Without its query.
-std::string path_of(const Request& request) {
-  return request.target.substr(0, request.target.find('?'));
-}
-
 Answer json_answer(const Json& value, int status = 200) {
   return {status, "application/json", value.dump(-1, ' ', true, Json::error_handler_t::replace)};
 }
@@ -145,11 +140,11 @@ void set_sensor(session::Session& session, const core::JsonNode& root) {
 
 Answer refusal(int status, const std::string& why) { return json_answer({{"error", why}}, status); }
 
-bool Desk::renders(const Request& request) { return path_of(request) == kCell; }
+bool Desk::renders(const Request& request) { return request.path() == kCell; }
 
 Answer Desk::answer(const Request& request) const {
   if (const std::optional<Answer> refused = access_.refuse(request)) return *refused;
-  const std::string path = path_of(request);
+  const std::string path = request.path();
   const bool asks = request.method == "GET" || request.method == "HEAD";
   if (!asks && request.method != "POST") {
     Answer refused = refusal(405, "GET, HEAD or POST");

@@ -56,7 +56,7 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
  private:
   void take(const HttpRequest& request) {
     Request asked = request_of(request);
-    const std::string path = asked.target.substr(0, asked.target.find('?'));
+    const std::string path = asked.path();
     const bool by_socket = websocket::is_upgrade(request) && path == "/ws";
     const bool by_stream = asked.method == "GET" && is_stream(path);
     if (by_socket || by_stream) {

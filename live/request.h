@@ -11,6 +11,8 @@ struct Request {
   std::string body;
   std::string authorization{}, cookie{};
   std::string fetch_site{}, fetch_mode{};  // Sec-Fetch-Site and -Mode, which browsers send
+
+  std::string path() const { return target.substr(0, target.find('?')); }
 };
 
 struct Answer {

@@ -103,8 +103,7 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
     setting.volume =
         flight_volume(description, setting.frame, setting.trajectory, ground.field(), *stands);
     check_heights(description, setting.volume, problems);
-    // For what it refuses: settled() knows the plan.
-    scene_caster(description, options.caster, setting.volume, bodies.solids, {}, problems);
+    check_caster(description, options.caster, setting.volume, bodies.solids, problems);
   }
   check_surfaces(description, library, names.used(), problems);
   if (setting.trajectory) {

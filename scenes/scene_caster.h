@@ -10,12 +10,19 @@
 
 namespace fanbeam::scenes {
 
-// For the whole flight volume, so that the choice does not depend on which frames are rendered; without
-// a `plan` as if no double bounce ran. `asked` stands for the scene's own wish. Slices forced where they cannot show the scene become an
-// error in `problems`, at the scene's line where that is what forces them.
+// For the whole flight volume, so that neither depends on which frames are rendered. `asked` stands for
+// the scene's own wish.
+
+// Slices forced where they cannot show the scene, whatever its plan, become an error in `problems`, at
+// the scene's line where that is what forces them.
+void check_caster(const SceneDescription& scene, const std::optional<renderer::CasterWish>& asked,
+                  const FlightVolume& volume, const terrain::Solids& solids,
+                  core::ProblemList& problems);
+
+// Of what check_caster() has no problem with.
 renderer::CasterChoice scene_caster(const SceneDescription& scene,
                                     const std::optional<renderer::CasterWish>& asked,
                                     const FlightVolume& volume, const terrain::Solids& solids,
-                                    const core::EffectPlan& plan, core::ProblemList& problems);
+                                    const core::EffectPlan& plan);
 
 }  // namespace fanbeam::scenes

@@ -157,7 +157,7 @@ std::unique_ptr<Scene> settled(SceneSetting setting, std::vector<renderer::Point
                                core::ProblemList& problems) {
   Planned planned = make_plan(setting, targets);
   setting.caster = scene_caster(setting.description, setting.options.caster, setting.volume,
-                                setting.site->parts().geometry->solids, planned.plan, problems);
+                                setting.site->parts().geometry->solids, planned.plan);
   const bool wet = planned.plan.runs(core::EffectId::surface_state);
   std::vector<SurfaceRecord> surfaces =
       records_of(setting, wet ? setting.description.surface_state : materials::SurfaceState::dry);
@@ -191,8 +191,7 @@ std::unique_ptr<Scene> under_conditions(const Scene& scene, const Conditions& co
   changed.volume = flight_volume(description, scene.frame, scene.trajectory,
                                  *parts.geometry->surfaces->terrain(), parts.facts);
   if (conditions.surface_state) check_surfaces(description, parts.library, parts.used, problems);
-  // For what it refuses.
-  scene_caster(description, changed.options.caster, changed.volume, parts.geometry->solids, {},
+  check_caster(description, changed.options.caster, changed.volume, parts.geometry->solids,
                problems);
   problems.throw_if_errors();
   auto conditioned =

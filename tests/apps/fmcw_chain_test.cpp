@@ -19,6 +19,20 @@ sensors::Sensor automotive() {
   return sensor;
 }
 
+FmcwSettings of_16_chirps() {
+  FmcwSettings options;
+  REQUIRE(std::string(kWaveformNumbers[11].option) == "--chirps");
+  options.numbers[11] = 16.0;
+  return options;
+}
+
+signal::ScatterPath echo_at_40_m() {
+  signal::ScatterPath path;
+  path.range_m = 40.0;
+  path.amplitude_sqrtW = 1e-6;
+  return path;
+}
+
 // |mean of a conj(b)| over the first samples, 1 for equal rows.
 double correlation(const signal::FloatCube& a, const signal::FloatCube& b) {
   const int count = std::min(a.shape.samples, b.shape.samples);
@@ -59,13 +73,9 @@ TEST_CASE("The noise of a stage is that of no other stage, frame or seed", "[fmc
 
 TEST_CASE("A frame holds what its products need and nothing else", "[fmcw]") {
   const sensors::Sensor sensor = automotive();
-  FmcwSettings options;
-  options.numbers[11] = 16.0;
-  REQUIRE(std::string(kWaveformNumbers[11].option) == "--chirps");
+  FmcwSettings options = of_16_chirps();
   const FmcwRadar radar = fmcw_radar(options, sensor);
-  signal::ScatterPath path;
-  path.range_m = 40.0;
-  path.amplitude_sqrtW = 1e-6;
+  const signal::ScatterPath path = echo_at_40_m();
   const auto made = [&](const std::set<std::string>& products) {
     return fmcw_frame(radar, {path}, 0, options, products);
   };
@@ -90,12 +100,9 @@ TEST_CASE("A frame holds what its products need and nothing else", "[fmcw]") {
 
 TEST_CASE("Receiver effects of zero magnitude, and pruned ones, change no byte", "[fmcw]") {
   const sensors::Sensor sensor = automotive();
-  FmcwSettings options;
-  options.numbers[11] = 16.0;
+  FmcwSettings options = of_16_chirps();
   const FmcwRadar radar = fmcw_radar(options, sensor);
-  signal::ScatterPath path;
-  path.range_m = 40.0;
-  path.amplitude_sqrtW = 1e-6;
+  const signal::ScatterPath path = echo_at_40_m();
   const auto made = [&](const char* wishes) {
     SignalBudget budget;
     if (*wishes != 0)
@@ -122,12 +129,10 @@ TEST_CASE("Receiver effects of zero magnitude, and pruned ones, change no byte",
 
 TEST_CASE("A fixed full scale saturates, and is free of samples below it", "[fmcw]") {
   const sensors::Sensor sensor = automotive();
-  FmcwSettings options;
-  options.numbers[11] = 16.0;
+  FmcwSettings options = of_16_chirps();
   options.adc_bits = 12;
   const FmcwRadar radar = fmcw_radar(options, sensor);
-  signal::ScatterPath path;
-  path.range_m = 40.0;
+  signal::ScatterPath path = echo_at_40_m();
   path.amplitude_sqrtW = 1e-3;  // 0 dBm at the port is 31.6 times as much
   const auto made = [&] { return fmcw_frame(radar, {path}, 0, options, {"beat"}); };
   options.adc_full_scale_dBm = -20.0;
@@ -147,15 +152,12 @@ TEST_CASE("A fixed full scale saturates, and is free of samples below it", "[fmc
 
 TEST_CASE("What a channel's gain lets clip, or lifts over the noise, is not pruned", "[fmcw]") {
   const sensors::Sensor sensor = automotive();
-  FmcwSettings options;
-  options.numbers[11] = 16.0;
+  FmcwSettings options = of_16_chirps();
   options.adc_bits = 14;
   options.adc_full_scale_dBm = -55.0;  // 35 dB over the echo
   options.line_width_Hz = 1e-4;
   const FmcwRadar radar = fmcw_radar(options, sensor);
-  signal::ScatterPath path;
-  path.range_m = 40.0;
-  path.amplitude_sqrtW = 1e-6;
+  const signal::ScatterPath path = echo_at_40_m();
   const auto made = [&] { return fmcw_frame(radar, {path}, 0, options, {"range-doppler"}); };
   const FmcwFrame even = made();
   CHECK_FALSE(even.plan.runs(core::EffectId::quantiser));
@@ -178,12 +180,9 @@ TEST_CASE("What a channel's gain lets clip, or lifts over the noise, is not prun
 
 TEST_CASE("Errors of channels are in the samples and bend the beam", "[fmcw]") {
   const sensors::Sensor sensor = automotive();
-  FmcwSettings options;
-  options.numbers[11] = 16.0;
+  FmcwSettings options = of_16_chirps();
   const FmcwRadar radar = fmcw_radar(options, sensor);
-  signal::ScatterPath path;
-  path.range_m = 40.0;
-  path.amplitude_sqrtW = 1e-6;
+  const signal::ScatterPath path = echo_at_40_m();
   const auto made = [&] { return fmcw_frame(radar, {path}, 0, options, {"detections"}); };
   const FmcwFrame good = made();
   options.gain_errors_dB.assign(12, 0.0);
@@ -200,13 +199,10 @@ TEST_CASE("Errors of channels are in the samples and bend the beam", "[fmcw]") {
 
 TEST_CASE("A window over the channels weighs beams and changes no detection", "[fmcw]") {
   const sensors::Sensor sensor = automotive();
-  FmcwSettings options;
-  options.numbers[11] = 16.0;
+  FmcwSettings options = of_16_chirps();
   const FmcwRadar radar = fmcw_radar(options, sensor);
-  signal::ScatterPath path;
-  path.range_m = 40.0;
+  signal::ScatterPath path = echo_at_40_m();
   path.azimuth_rad = 0.2;
-  path.amplitude_sqrtW = 1e-6;
   const auto made = [&] {
     return fmcw_frame(radar, {path}, 0, options, {"detections", "range-azimuth"});
   };
@@ -289,9 +285,7 @@ TEST_CASE("Detections of a sparse line are where its cube has them, and what fol
   FmcwSettings options;
   options.numbers[11] = 64.0;
   options.pitch_wavelengths = 2.0;
-  signal::ScatterPath path;
-  path.range_m = 40.0;
-  path.amplitude_sqrtW = 1e-6;
+  signal::ScatterPath path = echo_at_40_m();
   for (const auto method : {signal::AngleMethod::beamforming, signal::AngleMethod::music}) {
     options.angle_method = method;
     const FmcwRadar radar = fmcw_radar(options, automotive());

@@ -75,8 +75,6 @@ class SampledRadar {
     std::size_t up = 0, down = 0;
     signal::RangeSpeed coarse, place;
     bool found = false;
-    // Of a beat, whether this pair has it.
-    bool has(bool of_up, std::size_t beat) const { return found && (of_up ? up : down) == beat; }
   };
   struct Found {
     std::size_t up = 0, down = 0;
@@ -100,6 +98,7 @@ class SampledRadar {
   std::vector<Pair> best_pairs(const signal::TriangleModel& model, const SampledBeats& beats,
                                const std::vector<std::vector<signal::RangeSpeed>>& places,
                                const std::vector<Coarse>& cells) const;
+  static bool has_beat(const std::vector<Pair>& pairs, bool of_up, std::size_t beat);
   static bool seen_before(const std::vector<Found>& found, const Found& one, double apart);
   std::vector<signal::RangeSpeed> folded(const Coarse& one) const;
   std::vector<Found> apart(const signal::TriangleModel& model, const SampledBeats& beats,

@@ -81,6 +81,12 @@ std::vector<SampledRadar::Pair> SampledRadar::fitting(const signal::TriangleMode
   return result;
 }
 
+bool SampledRadar::has_beat(const std::vector<Pair>& pairs, bool of_up, std::size_t beat) {
+  return std::any_of(pairs.begin(), pairs.end(), [&](const Pair& one) {
+    return one.found && (of_up ? one.up : one.down) == beat;
+  });
+}
+
 // Of every cell the pair that fits best, the surest cell first. A beat that another cell's pair has is
 // less likely: two cars behind each other have four pairs of beats and one direction, and of the crossed
 // ones, which fit as well where the beats of a ramp are closer than cells, both beats are taken.
@@ -93,11 +99,8 @@ std::vector<SampledRadar::Pair> SampledRadar::best_pairs(
     candidates.push_back(fitting(model, beats, places[i], cells[i]));
   std::vector<Pair> result(cells.size());
   const auto cost = [&](const Pair& pair) {
-    double taken = 0.0;
-    for (const bool of_up : {true, false})
-      taken += std::any_of(result.begin(), result.end(), [&](const Pair& other) {
-        return other.has(of_up, of_up ? pair.up : pair.down);
-      });
+    const int taken =
+        (has_beat(result, true, pair.up) ? 1 : 0) + (has_beat(result, false, pair.down) ? 1 : 0);
     return pair.misfit + kTaken * taken;
   };
   for (std::size_t round = 0; round < cells.size(); ++round) {
@@ -238,7 +241,7 @@ std::vector<SampledRadar::Found> SampledRadar::two_of_each(const signal::Triangl
 }
 
 // The pair as it is, or where a beat of it is one of two tones of a peak, both targets: each with the
-// beat of the other ramp, near enough in range and speed, that comes from its direction.
+// beat of the other ramp from its direction that fits best in range and speed.
 std::vector<SampledRadar::Found> SampledRadar::apart(const signal::TriangleModel& model,
                                                      const SampledBeats& beats,
                                                      const std::vector<Pair>& bests,
@@ -256,12 +259,8 @@ std::vector<SampledRadar::Found> SampledRadar::apart(const signal::TriangleModel
   const std::vector<Beat>& others = by_up ? beats.down : beats.up;
   std::vector<Found> result;
   for (const std::size_t one : by_up ? up : down) {
-    const bool is_best = best.has(by_up, one);
-    // Its target is measured where it is detected.
-    if (!is_best && std::any_of(bests.begin(), bests.end(), [&](const Pair& other) {
-          return &other != &best && other.has(by_up, one);
-        }))
-      continue;
+    const bool is_best = one == (by_up ? best.up : best.down);
+    if (!is_best && has_beat(bests, by_up, one)) continue;  // measured where its target is detected
     const Beat& own = (by_up ? beats.up : beats.down)[one];
     std::size_t other = by_up ? best.down : best.up;
     double least = Pair{}.misfit;
