@@ -48,6 +48,7 @@ std::string markdown(const Report& report);
 TargetRows target_rows(const Report& report);
 // That of layers.
 TargetRow layers_row(const std::vector<LayerCost>& costs);
+TargetRow unasked_layers_row(const std::vector<LayerCost>& costs);
 // Their section; `skipped`: as in Report.
 std::string targets_markdown(const TargetRows& rows, const std::vector<std::string>& skipped);
 

@@ -41,12 +41,17 @@ std::set<std::string> shipped_scenes() {
   return names;
 }
 
-std::shared_ptr<const scenes::Scene> build(const std::string& name,
-                                           const scenes::BuildOptions& options) {
+std::unique_ptr<session::Session> open(const std::string& name,
+                                       const scenes::BuildOptions& options) {
   const fs::path shipped = FANBEAM_SOURCE_DIR;
   core::ProblemList problems;
   const session::Setup setup{.shipped = shipped, .data_folders = {data_folder()}, .build = options};
-  return session::Session(shipped / "scenes" / name, setup, problems).scene();
+  return std::make_unique<session::Session>(shipped / "scenes" / name, setup, problems);
+}
+
+std::shared_ptr<const scenes::Scene> build(const std::string& name,
+                                           const scenes::BuildOptions& options) {
+  return open(name, options)->scene();
 }
 
 std::optional<BenchScene> load(const std::string& name, const scenes::BuildOptions& options) {

@@ -11,6 +11,10 @@
 #include "scenes/scene.h"
 #include "sensors/antenna/antenna_frame.h"
 
+namespace fanbeam::session {
+class Session;
+}
+
 namespace fanbeam::benchmarks {
 
 inline constexpr const char* kDefaultScene = "braunschweig-26";
@@ -39,7 +43,10 @@ std::string data_folder();
 // Those of the source tree, by name.
 std::set<std::string> shipped_scenes();
 
-// Reads and builds a shipped scene of the source tree. Throws core::InputError.
+// A shipped scene of the source tree. Throws core::InputError.
+std::unique_ptr<session::Session> open(const std::string& name,
+                                       const scenes::BuildOptions& options = {});
+// The scene of that.
 std::shared_ptr<const scenes::Scene> build(const std::string& name,
                                            const scenes::BuildOptions& options = {});
 

@@ -186,7 +186,8 @@ void run(const Options& options) {
     return;
   }
   if (options.layers_alone) {
-    fmt::print("{}", layers_row(measure_layers(effort)).markdown());
+    const std::vector<LayerCost> costs = measure_layers(effort);
+    fmt::print("{}{}", layers_row(costs).markdown(), unasked_layers_row(costs).markdown());
     return;
   }
   std::vector<BenchScene> scenes;

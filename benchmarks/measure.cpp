@@ -14,8 +14,8 @@
 namespace fanbeam::benchmarks {
 namespace {
 
+using measure::LadderWork;
 using renderer::CasterKind;
-using renderer::NaiveKind;
 
 constexpr double kFewNaiveRays = 12;  // more take a good part of a second: one frame is enough
 constexpr int kSubColumns[] = {1, 2, 4, 8, 16};
@@ -77,8 +77,15 @@ class ViewBench {
     const GreyReference& reference;
   };
   Picture whole() const { return {view_.scene->effects(), *reference_}; }
-  LadderStep measure(const Picture& picture, const renderer::Sampling& sampling, double fineness,
-                     const measure::Repetitions& repetitions) const;
+  LadderWork work(const Picture& picture, const renderer::Sampling& sampling,
+                  double fineness) const {
+    const bool rays = sampling.caster == CasterKind::rays;
+    return {rays ? Way::rays : Way::slices, fineness, clock(picture, sampling), sampling};
+  }
+  std::vector<LadderStep> measure(const Picture& picture, const std::vector<LadderWork>& works,
+                                  int repetitions) const {
+    return measure::measure_steps(view_.frame, picture.reference, works, repetitions);
+  }
   LadderStep finest_within(const Picture& picture, CasterKind caster, double budget_ms) const;
   FrameClock clock(const Picture& picture, const renderer::Sampling& sampling) const {
     return {view_.world(), view_.pose, sampling, picture.effects};
@@ -92,22 +99,6 @@ class ViewBench {
   ViewFigures figures_;
   renderer::Sampling surface_rays_;  // at 16 Hz
 };
-
-LadderStep ViewBench::measure(const Picture& picture, const renderer::Sampling& sampling,
-                              double fineness, const measure::Repetitions& repetitions) const {
-  const FrameClock timed = clock(picture, sampling);
-  LadderStep figures;
-  figures.frame = view_.frame;
-  figures.way = sampling.caster == CasterKind::rays ? Way::rays : Way::slices;
-  figures.sampling = sampling;
-  figures.fineness = fineness;
-  renderer::Frame frame;
-  figures.time = measure::time_of(repetitions, [&] { timed.frame_ms(&frame); });
-  figures.rays = frame.rays;
-  figures.slices = frame.slices;
-  figures.error = picture.reference.error_of(power_of(std::move(frame)));
-  return figures;
-}
 
 void ViewBench::measure_reference_error() {
   tell("second reference");
@@ -134,8 +125,9 @@ LadderStep ViewBench::finest_within(const Picture& picture, CasterKind caster,
     (quickest_ms <= budget_ms ? low : high) = middle;
   }
   for (;; --low) {
-    LadderStep figures = measure(picture, renderer::sampling_for(caster, steps[low]), steps[low],
-                                 effort_.operating_point);
+    std::vector<LadderWork> works;
+    works.push_back(work(picture, renderer::sampling_for(caster, steps[low]), steps[low]));
+    const LadderStep figures = measure(picture, works, effort_.operating_point).front();
     if (figures.time.ms <= budget_ms || low == 0) return figures;
   }
 }
@@ -156,9 +148,10 @@ void ViewBench::measure_caster(CasterKind caster) {
   const bool rays = caster == CasterKind::rays;
   CasterFigures& figures = rays ? figures_.rays : figures_.slices;
   tell(rays ? "rays" : "slices");
+  std::vector<LadderWork> works;
   for (const double fineness : rays ? effort_.rays : effort_.slices)
-    figures.ladder.push_back(
-        measure(whole(), renderer::sampling_for(caster, fineness), fineness, effort_.step));
+    works.push_back(work(whole(), renderer::sampling_for(caster, fineness), fineness));
+  figures.ladder = measure(whole(), works, effort_.repetitions);
   tell(rays ? "rays at 16, 45 and 90 Hz" : "slices at 16, 45 and 90 Hz");
   figures.at_16Hz = finest_within(whole(), caster, kBudget16Hz_ms);
   figures.at_45Hz = finest_within(whole(), caster, kBudget45Hz_ms);
@@ -190,34 +183,29 @@ void ViewBench::measure_naive() {
   tell("naive yardsticks");
   const renderer::ElevationSpan span = renderer::elevation_span(view_.world(), view_.antenna);
   for (const Way way : {Way::naive_plain, Way::naive_dithered}) {
-    const NaiveKind kind = way == Way::naive_plain ? NaiveKind::plain : NaiveKind::dithered;
     for (const double rays : effort_.ladder(way)) {
-      const FrameClock clock(view_.world(), view_.pose, kind, rays, span, view_.scene->effects());
-      renderer::Frame frame;
-      const measure::Repetitions once{1, 1, 0.0, false};
-      LadderStep figures;
-      figures.frame = view_.frame;
-      figures.way = way;
-      figures.fineness = rays;
-      figures.time = measure::time_of(rays > kFewNaiveRays ? once : effort_.naive,
-                                      [&] { clock.frame_ms(&frame); });
-      figures.rays = frame.rays;
-      figures.error = reference_->error_of(power_of(std::move(frame)));
-      figures_.naive.push_back(figures);
-      if (figures.error.bscope.noise_free.rms < kEqualErrors_grey[1]) break;
+      std::vector<LadderWork> works;
+      works.push_back({way,
+                       rays,
+                       {view_.world(), view_.pose, measure::naive_kind(way), rays, span,
+                        view_.scene->effects()}});
+      figures_.naive.push_back(
+          measure(whole(), works, rays > kFewNaiveRays ? 1 : effort_.repetitions).front());
+      if (figures_.naive.back().error.bscope.noise_free.rms < kEqualErrors_grey[1]) break;
     }
   }
 }
 
 void ViewBench::measure_splits() {
   tell("splits");
+  std::vector<LadderWork> works;
   for (const int sub_columns : kSubColumns) {
     renderer::Sampling sampling = renderer::sampling_for(renderer::kDefaultRaysPerCell);
     sampling.sub_columns = sub_columns;
     sampling.rays_per_cell = renderer::kDefaultRaysPerCell / sub_columns;
-    figures_.splits.push_back(
-        measure(whole(), sampling, renderer::kDefaultRaysPerCell, effort_.step));
+    works.push_back(work(whole(), sampling, renderer::kDefaultRaysPerCell));
   }
+  figures_.splits = measure(whole(), works, effort_.repetitions);
 }
 
 }  // namespace

@@ -20,9 +20,8 @@ Effort full_effort() {
   effort.slices = cast_as_asked({0.3, 0.5, 1, 1.4, 2, 3, 4, 6, 8, 12, 16, 24, 32, 64});
   effort.plain_rays = {1, 2, 6, 12, 24, 60};  // more do not help it
   effort.dithered_rays = {1, 2, 6, 12, 24, 60, 120, 240};
-  effort.step = {3, 21, 400.0};
-  effort.operating_point = {11, 21, 600.0};
-  effort.naive = {1, 5, 200.0};
+  effort.repetitions = 5;
+  effort.operating_point = 15;
   effort.turns = 11;
   effort.scaling_turns = 5;
   effort.sequence_frames = 48;
@@ -40,8 +39,7 @@ Effort quick_effort() {
   effort.plain_rays = effort.dithered_rays = {2, 12, 60};
   effort.converged_slices = 32.0;
   effort.reference_passes = 1;
-  effort.step = effort.operating_point = {2, 2, 0.0};
-  effort.naive = {1, 1, 0.0};
+  effort.repetitions = effort.operating_point = 2;
   effort.turns = effort.scaling_turns = 2;
   effort.sequence_frames = 4;
   effort.estimate_frames = effort.bound_frames = 1;

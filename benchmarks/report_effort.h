@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "measure/clock.h"
 #include "measure/effort.h"
 #include "renderer/casting/sampling.h"
 
@@ -14,7 +13,7 @@ namespace fanbeam::benchmarks {
 struct Effort : measure::Effort {
   double converged_slices = 128.0;
 
-  measure::Repetitions step, operating_point, naive;
+  int operating_point = 0;  // repetitions
   // Things that are compared are measured in turns, so that all see the same machine.
   int turns = 0;
   int scaling_turns = 0;

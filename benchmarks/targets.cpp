@@ -6,6 +6,7 @@
 #include "benchmarks/bench_report.h"
 #include "benchmarks/reasons.h"
 #include "benchmarks/view_targets.h"
+#include "core/median.h"
 
 namespace fanbeam::benchmarks {
 namespace {
@@ -19,6 +20,7 @@ constexpr Target kScaling{3.0, 3.0};
 constexpr Target kPlanTime_ms{20.0, 20.0};
 constexpr Target kConditions_ms{20.0, 20.0};
 constexpr Target kLayers{1.25, 1.25};
+constexpr Target kUnaskedLayers{1.01, 1.01};
 constexpr Target kPlanSaving{0.3, 0.3, true};
 constexpr Target kOffOverAbsent{1.01, 1.01};
 constexpr Target kEstimatesWithin{0.95, 0.95, true};
@@ -161,6 +163,20 @@ TargetRow layers_row(const std::vector<LayerCost>& costs) {
   return row;
 }
 
+TargetRow unasked_layers_row(const std::vector<LayerCost>& costs) {
+  TargetRow row(
+      "all scenes, frame without layers in a session that gives them to others, over one in a "
+      "session that never did, median of the scenes",
+      kNotKnown, fmt::format("{:.2f}", kUnaskedLayers.must));
+  std::vector<double> ratios;
+  for (const LayerCost& cost : costs) {
+    row.add(fmt::format("{:.3f} {}", cost.unasked_ratio(), cost.scene));
+    ratios.push_back(cost.unasked_ratio());
+  }
+  row.judge(core::median(ratios), kUnaskedLayers);
+  return row;
+}
+
 TargetRows target_rows(const Report& report) {
   TargetRows rows;
   for (const SceneFigures& scene : report.scenes) {
@@ -176,7 +192,10 @@ TargetRows target_rows(const Report& report) {
   for (const AgreementFigures& line : report.agreement)
     add_rows(rows, agreement_rows(line.scene, {line}));
   if (report.rain) add_rows(rows, rain_rows(*report.rain));
-  if (!report.layers.empty()) rows.push_back(layers_row(report.layers));
+  if (!report.layers.empty()) {
+    rows.push_back(layers_row(report.layers));
+    rows.push_back(unasked_layers_row(report.layers));
+  }
   if (report.campaigns) add_rows(rows, campaign_rows(*report.campaigns));
   if (!report.bounds.empty()) rows.push_back(bounds_row(report.bounds));
   if (!report.estimates.empty()) rows.push_back(estimates_row(report.estimates));

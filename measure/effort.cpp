@@ -49,6 +49,10 @@ renderer::Sampling sampling_of(Way way, double fineness) {
                                 fineness);
 }
 
+renderer::NaiveKind naive_kind(Way way) {
+  return way == Way::naive_plain ? renderer::NaiveKind::plain : renderer::NaiveKind::dithered;
+}
+
 double Pace::step_ms(Way way, double fineness) const {
   // What a frame costs before its first ray or slice.
   constexpr double kFixed = 0.25;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "measure/figures.h"
+#include "renderer/accuracy/naive_caster.h"
 #include "renderer/casting/sampling.h"
 
 namespace fanbeam::measure {
@@ -28,6 +29,8 @@ Effort quick_effort();
 
 // Sampling of the two casters for a step of their ladder.
 renderer::Sampling sampling_of(Way way, double fineness);
+// Of the two others.
+renderer::NaiveKind naive_kind(Way way);
 
 // Times of a few frames of the scene, from which all others follow roughly: enough to say whether a
 // run takes one minute or ten.

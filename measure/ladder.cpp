@@ -7,19 +7,18 @@
 
 #include "core/turns.h"
 #include "measure/clock.h"
-#include "measure/frame_clock.h"
 
 namespace fanbeam::measure {
 namespace {
 
-FrameClock work_of(const CostBench& bench, const renderer::FramePose& pose,
+LadderWork work_of(const CostBench& bench, const renderer::FramePose& pose,
                    const renderer::ElevationSpan& span, Way way, double fineness) {
   const renderer::World& world = bench.scene.world;
-  if (way == Way::rays || way == Way::slices)
-    return {world, pose, sampling_of(way, fineness), bench.effects()};
-  const auto kind =
-      way == Way::naive_plain ? renderer::NaiveKind::plain : renderer::NaiveKind::dithered;
-  return {world, pose, kind, fineness, span, bench.effects()};
+  if (way == Way::rays || way == Way::slices) {
+    const renderer::Sampling sampling = sampling_of(way, fineness);
+    return {way, fineness, {world, pose, sampling, bench.effects()}, sampling};
+  }
+  return {way, fineness, {world, pose, naive_kind(way), fineness, span, bench.effects()}};
 }
 
 void measure_frame(const CostBench& bench, int frame, const renderer::GreyReference& reference,
@@ -28,22 +27,13 @@ void measure_frame(const CostBench& bench, int frame, const renderer::GreyRefere
   const renderer::FramePose pose = bench.scene.frame_pose(frame);
   const sensors::AntennaFrame antenna = renderer::antenna_of(world.sensor, pose);
   const renderer::ElevationSpan span = renderer::elevation_span(world, antenna);
-  std::vector<FrameClock> works;
-  const std::size_t first = ladder.size();
-  for (const Way way : bench.ways()) {
-    for (const double fineness : bench.effort.ladder(way)) {
+  std::vector<LadderWork> works;
+  for (const Way way : bench.ways())
+    for (const double fineness : bench.effort.ladder(way))
       works.push_back(work_of(bench, pose, span, way, fineness));
-      renderer::Frame shown = works.back().render();
-      LadderStep step{frame, way,        fineness,     sampling_of(way, fineness),
-                      {},    shown.rays, shown.slices, {}};
-      step.error = reference.error_of(power_of(std::move(shown)));
-      ladder.push_back(step);
-    }
-  }
-  std::vector<std::function<void()>> timed;
-  for (const FrameClock& work : works) timed.emplace_back([&work] { work.render(); });
-  const std::vector<core::MedianTime> times = core::time_in_turns(timed, bench.effort.repetitions);
-  for (std::size_t i = 0; i < times.size(); ++i) ladder[first + i].time = times[i];
+  const std::vector<LadderStep> steps =
+      measure_steps(frame, reference, works, bench.effort.repetitions);
+  ladder.insert(ladder.end(), steps.begin(), steps.end());
 }
 
 // Calls `with` with functions that pick each figure of a FrameError.
@@ -110,6 +100,23 @@ std::vector<renderer::GreyReference> render_references(const CostBench& bench,
     figures.push_back(reference);
   }
   return references;
+}
+
+std::vector<LadderStep> measure_steps(int frame, const renderer::GreyReference& reference,
+                                      const std::vector<LadderWork>& works, int repetitions) {
+  std::vector<LadderStep> steps;
+  std::vector<std::function<void()>> timed;
+  for (const LadderWork& work : works) {
+    renderer::Frame shown = work.clock.render();
+    LadderStep step{frame, work.way,   work.fineness, work.sampling,
+                    {},    shown.rays, shown.slices,  {}};
+    step.error = reference.error_of(power_of(std::move(shown)));
+    steps.push_back(step);
+    timed.emplace_back([&work] { work.clock.render(); });
+  }
+  const std::vector<core::MedianTime> times = core::time_in_turns(timed, repetitions);
+  for (std::size_t i = 0; i < times.size(); ++i) steps[i].time = times[i];
+  return steps;
 }
 
 std::vector<LadderStep> measure_ladder(const CostBench& bench,

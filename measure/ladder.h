@@ -4,8 +4,20 @@
 #include <vector>
 
 #include "measure/bench.h"
+#include "measure/frame_clock.h"
 
 namespace fanbeam::measure {
+
+struct LadderWork {
+  Way way;
+  double fineness;
+  FrameClock clock;
+  renderer::Sampling sampling{};  // of the two casters
+};
+
+// Steps of one frame, timed in turns.
+std::vector<LadderStep> measure_steps(int frame, const renderer::GreyReference& reference,
+                                      const std::vector<LadderWork>& works, int repetitions);
 
 // `references` are of the bench's frames.
 std::vector<LadderStep> measure_ladder(const CostBench& bench,

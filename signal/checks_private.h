@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/number_range.h"
 
 namespace fanbeam::signal {
 
@@ -15,16 +16,15 @@ namespace fanbeam::signal {
 }
 
 inline void check_positive(const char* field, double value) {
-  if (!(std::isfinite(value) && value > 0.0)) refuse(field, value, "above 0");
+  core::require_range(field, value, {.low = 0.0, .above_low = true});
 }
 
 inline void check_not_negative(const char* field, double value) {
-  if (!(std::isfinite(value) && value >= 0.0)) refuse(field, value, "0 or above");
+  core::require_range(field, value, {.low = 0.0});
 }
 
 inline void check_count(const char* field, double count, int least, int most) {
-  if (!(count >= least && count <= most))
-    refuse(field, count, std::to_string(least) + " to " + std::to_string(most));
+  core::require_range(field, count, {static_cast<double>(least), static_cast<double>(most)});
 }
 
 inline void check_finite(const char* field, const std::vector<std::complex<double>>& values) {

@@ -7,6 +7,7 @@
 
 #include "core/constants.h"
 #include "core/errors.h"
+#include "core/number_range.h"
 #include "core/parallel.h"
 #include "core/random.h"
 #include "renderer/casting/elevation_fan.h"
@@ -27,10 +28,8 @@ void check(const FrameEchoSettings& settings) {
     if (!std::isfinite(settings.own_velocity_mps[axis]))
       core::throw_input_error(core::ErrorClass::nonfinite, "own velocity",
                               settings.own_velocity_mps[axis], "finite components");
-  if (settings.passes < 1 || settings.passes > 64)
-    core::throw_input_error(core::ErrorClass::range, "passes", settings.passes, "1 to 64");
-  if (!(settings.half_fan_rad >= 0.0 && settings.half_fan_rad <= core::kPi))
-    core::throw_input_error(core::ErrorClass::range, "half fan", settings.half_fan_rad, "0 to pi");
+  core::require_range("passes", settings.passes, {1.0, 64.0});
+  core::require_range("half fan", settings.half_fan_rad, {0.0, core::kPi}, "rad");
 }
 
 // The sub-columns of a frame, as those of the picture where they overlap.

@@ -6,6 +6,7 @@
 
 #include "core/constants.h"
 #include "core/errors.h"
+#include "core/number_range.h"
 #include "core/parallel.h"
 #include "sensors/cells.h"
 #include "sensors/display/grey_scale.h"
@@ -101,11 +102,7 @@ Picture8 cscope_picture(const Sensor& sensor, std::span<const double> grey) {
 std::vector<double> flat_earth_cscope_W_m3(const Sensor& sensor, std::span<const double> power_W,
                                            double height_m) {
   check_size(power_W.size(), sensor.range.cells, sensor.scan.columns, "B-scope power");
-  if (!std::isfinite(height_m))
-    core::throw_input_error(core::ErrorClass::nonfinite, "height above ground", height_m,
-                            "above 0 m");
-  if (!(height_m > 0.0))
-    core::throw_input_error(core::ErrorClass::range, "height above ground", height_m, "above 0 m");
+  core::require_range("height above ground", height_m, {.low = 0.0, .above_low = true}, "m");
 
   const auto width = static_cast<std::size_t>(sensor.scan.columns);
   std::vector<double> compensated_W_m3(static_cast<std::size_t>(sensor.display.cscope_rows) * width,

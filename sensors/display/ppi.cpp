@@ -5,6 +5,7 @@
 
 #include "core/constants.h"
 #include "core/errors.h"
+#include "core/number_range.h"
 #include "core/parallel.h"
 #include "core/units.h"
 #include "sensors/cells.h"
@@ -16,25 +17,17 @@ namespace {
 constexpr int kMostPixels = 8192;  // along one side
 
 void check_side(const char* field, int size_px) {
-  if (size_px < 1 || size_px > kMostPixels)
-    core::throw_input_error(core::ErrorClass::range, field, size_px, "1 to 8192 pixels");
-}
-
-void check_finite(const char* field, double value) {
-  if (!std::isfinite(value))
-    core::throw_input_error(core::ErrorClass::nonfinite, field, value, "a finite number");
+  core::require_range(field, size_px, {1.0, kMostPixels}, "pixels");
 }
 
 void check(const PpiView& view, double heading_rad) {
   check_side("ppi.columns", view.columns);
   check_side("ppi.rows", view.rows);
-  check_finite("ppi.metres_per_pixel", view.metres_per_pixel);
-  check_finite("ppi.antenna_column", view.antenna_column);
-  check_finite("ppi.antenna_row", view.antenna_row);
-  check_finite("heading", heading_rad);
-  if (!(view.metres_per_pixel > 0.0))
-    core::throw_input_error(core::ErrorClass::range, "ppi.metres_per_pixel", view.metres_per_pixel,
-                            "above 0");
+  core::require_range("ppi.metres_per_pixel", view.metres_per_pixel,
+                      {.low = 0.0, .above_low = true});
+  core::require_range("ppi.antenna_column", view.antenna_column, {});
+  core::require_range("ppi.antenna_row", view.antenna_row, {});
+  core::require_range("heading", heading_rad, {});
 }
 
 // Of the cell at any range and azimuth; 0 outside.
@@ -93,7 +86,7 @@ PpiView north_up(double range_m, double half_sector_rad, int size_px, double hea
 
 PpiView ppi_view(const Sensor& sensor, PpiView::Up up, int size_px, double heading_rad) {
   check_side("ppi size", size_px);
-  check_finite("heading", heading_rad);
+  core::require_range("heading", heading_rad, {});
   const double half_sector_rad = 0.5 * sensor.scan.field_of_view_rad;
   return up == PpiView::Up::track
              ? track_up(sensor.range.maximum_m(), half_sector_rad, size_px)

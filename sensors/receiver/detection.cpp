@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "core/number_range.h"
 
 namespace fanbeam::sensors {
 namespace {
@@ -17,18 +18,13 @@ using InDouble = math::policies::policy<math::policies::promote_double<false>>;
 constexpr int kMostLooks = 1000;
 constexpr double kLargestSnr = 1e15;
 
-void check(const char* field, double value, bool valid, const char* expected) {
-  if (!std::isfinite(value))
-    core::throw_input_error(core::ErrorClass::nonfinite, field, value, expected);
-  if (!valid) core::throw_input_error(core::ErrorClass::range, field, value, expected);
-}
+void check_looks(int looks) { core::require_range("looks", looks, {1.0, kMostLooks}); }
 
-void check_looks(int looks) {
-  check("looks", looks, looks >= 1 && looks <= kMostLooks, "1 to 1000");
-}
-
-void check_probability(const char* field, double value) {
-  check(field, value, value > 0.0 && value < 1.0, "above 0 and below 1");
+void check_probability(const char* field, double value, double above = 0.0) {
+  if (!(value > above && value < 1.0))
+    core::throw_input_error(
+        std::isfinite(value) ? core::ErrorClass::range : core::ErrorClass::nonfinite, field, value,
+        "above " + core::number_text(above) + " and below 1");
 }
 
 // Order of the gamma law of the summed signal power; 0 stands for a steady target.
@@ -70,8 +66,8 @@ double detection_threshold(double false_alarm_probability, int looks) {
 
 double detection_probability(core::Swerling target, double snr, int looks, double threshold) {
   check_looks(looks);
-  check("signal-to-noise ratio", snr, snr >= 0.0, "0 or more");
-  check("threshold", threshold, threshold >= 0.0, "0 or more");
+  core::require_range("signal-to-noise ratio", snr, {.low = 0.0});
+  core::require_range("threshold", threshold, {.low = 0.0});
   double exceeded =  // Q(N + k, T)
       threshold > 0.0 ? math::gamma_q(static_cast<double>(looks), threshold, InDouble()) : 1.0;
   const double sum_snr = looks * snr;
@@ -92,10 +88,8 @@ double detection_probability(core::Swerling target, double snr, int looks, doubl
 
 double required_snr(core::Swerling target, double probability, double false_alarm_probability,
                     int looks) {
-  check_probability("detection probability", probability);
   const double threshold = detection_threshold(false_alarm_probability, looks);
-  check("detection probability", probability, probability > false_alarm_probability,
-        "above the false-alarm probability");
+  check_probability("detection probability", probability, false_alarm_probability);
   double low = 0.0;
   double high = 1.0;
   while (detection_probability(target, high, looks, threshold) < probability) {

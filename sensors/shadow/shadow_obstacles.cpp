@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/errors.h"
+#include "core/number_range.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "sensors/cells.h"
 #include "sensors/shadow/shadow_certainty.h"
@@ -161,11 +162,7 @@ void check(const Sensor& sensor, std::size_t cells, double height_m) {
   if (cells != expected)
     throw core::InternalError("B-scope power has " + std::to_string(cells) + " cells, expected " +
                               std::to_string(expected));
-  if (!std::isfinite(height_m))
-    core::throw_input_error(core::ErrorClass::nonfinite, "height above ground", height_m,
-                            "above 0 m");
-  if (!(height_m > 0.0))
-    core::throw_input_error(core::ErrorClass::range, "height above ground", height_m, "above 0 m");
+  core::require_range("height above ground", height_m, {.low = 0.0, .above_low = true}, "m");
 }
 
 }  // namespace

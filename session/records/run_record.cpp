@@ -36,15 +36,6 @@ Json caster_json(const renderer::CasterChoice& caster, const renderer::Sampling&
   return json;
 }
 
-Json ray_sampling_json(const renderer::Sampling& sampling) {
-  return {{"rays_per_cell_and_sub_column", sampling.rays_per_cell},
-          {"refinement_depth", sampling.refinement_depth},
-          {"gap_cells", sampling.gap_cells},
-          {"largest_step_deg", core::degrees(sampling.largest_step_rad)},
-          {"deposit", sampling.deposit_intervals ? "intervals" : "points"},
-          {"jittered_passes", sampling.jittered_passes}};
-}
-
 Json refined_pictures_json(const renderer::Products& wanted) {
   Json json = Json::array({"bscope"});
   if (wanted.cscope || wanted.cscope_layers) json.push_back("cscope");
@@ -54,20 +45,32 @@ Json refined_pictures_json(const renderer::Products& wanted) {
 // What the caster in use goes by. Slices may leave azimuths to rays, whose settings then stand in
 // an object of their own.
 Json sampling_json(const scenes::Scene& scene, const RunRecord& record) {
-  const renderer::Sampling& sampling = record.choice.sampling;
-  Json json = {{"sub_columns", sampling.sub_columns}};
-  if (sampling.target_grey > 0.0) {
-    json["refined_to_grey"] = sampling.target_grey;
+  // With a field more this does not compile: the fingerprint must not forget one.
+  const auto& [caster, slices_per_sub_column, sub_columns, rays_per_cell, refinement_depth,
+               gap_cells, largest_step_rad, largest_step_rows, bounce_share, deposit_intervals,
+               jittered_passes, seed, target_grey, estimate_error] = record.choice.sampling;
+  Json json = {{"sub_columns", sub_columns}};
+  if (target_grey > 0.0) {
+    json["refined_to_grey"] = target_grey;
     json["refined_pictures"] = refined_pictures_json(record.wanted);
   }
-  if (sampling.estimate_error) json["error_estimated"] = true;
-  if (sampling.bounce_share != 1.0) json["bounce_share"] = sampling.bounce_share;
-  if (sampling.caster == renderer::CasterKind::rays) {
-    json.update(ray_sampling_json(sampling));
+  if (estimate_error) json["error_estimated"] = true;
+  if (bounce_share != 1.0) json["bounce_share"] = bounce_share;
+  Json rays = {{"rays_per_cell_and_sub_column", rays_per_cell},
+               {"refinement_depth", refinement_depth},
+               {"gap_cells", gap_cells},
+               {"largest_step_deg", core::degrees(largest_step_rad)},
+               {"deposit", deposit_intervals ? "intervals" : "points"},
+               {"jittered_passes", jittered_passes}};
+  if (largest_step_rows != renderer::Sampling{}.largest_step_rows)
+    rays["largest_step_rows"] = largest_step_rows;
+  if (jittered_passes > 0) rays["jitter_seed"] = seed;
+  if (caster == renderer::CasterKind::rays) {
+    json.update(rays);
     return json;
   }
-  json["slices_per_sub_column"] = sampling.slices_per_sub_column;
-  if (scene.caster.others > 0) json["azimuths_left_to_rays"] = ray_sampling_json(sampling);
+  json["slices_per_sub_column"] = slices_per_sub_column;
+  if (scene.caster.others > 0) json["azimuths_left_to_rays"] = std::move(rays);
   return json;
 }
 

@@ -164,10 +164,8 @@ void check_map(const PowerMap& map, const CfarSettings& settings) {
 std::vector<CfarOffset> cfar_offsets(const CfarSettings& settings) {
   check_reach(settings.along_rows);
   check_reach(settings.along_columns);
-  if (!(settings.mean_estimate > 0.0) || !std::isfinite(settings.mean_estimate))
-    refuse("cfar.mean_estimate", settings.mean_estimate, "finite, above 0");
-  if (!(settings.rank_fraction > 0.0 && settings.rank_fraction <= 1.0))
-    refuse("cfar.rank_fraction", settings.rank_fraction, "above 0, at most 1");
+  check_positive("cfar.mean_estimate", settings.mean_estimate);
+  core::require_range("cfar.rank_fraction", settings.rank_fraction, {0.0, 1.0, true});
   const int rows = settings.along_rows.guard + settings.along_rows.reference;
   const int columns = settings.along_columns.guard + settings.along_columns.reference;
   std::vector<CfarOffset> offsets;

@@ -15,11 +15,6 @@ namespace {
 
 using core::kPi;
 
-void check_range(const char* field, double value, double least, double most, const char* expected) {
-  // Written so that NaN fails too.
-  if (!(value >= least && value <= most)) refuse(field, value, expected);
-}
-
 // a0 - a1 cos 2 pi u + a2 cos 4 pi u - ...
 std::vector<double> cosine_sum(std::initializer_list<double> terms, int length) {
   std::vector<double> weights(static_cast<std::size_t>(length));
@@ -48,8 +43,8 @@ double taylor_coefficient(int m, int nbar, double a_squared, double widening) {
 }
 
 std::vector<double> taylor(int nbar, double level_dB, int length) {
-  check_range("window.taylor_nbar", nbar, 1, 50, "1 to 50");
-  check_range("window.level_dB", level_dB, 10.0, 120.0, "10 to 120 dB");
+  core::require_range("window.taylor_nbar", nbar, {1.0, 50.0});
+  core::require_range("window.level_dB", level_dB, {10.0, 120.0}, "dB");
   const double a = std::acosh(std::pow(10.0, level_dB / 20.0)) / kPi;
   const double widening = nbar * nbar / (a * a + (nbar - 0.5) * (nbar - 0.5));
   std::vector<double> weights(static_cast<std::size_t>(length), 1.0);
@@ -71,7 +66,7 @@ double chebyshev_polynomial(int order, double x) {
 
 // Dolph's window is known by its spectrum, T_order(x0 cos(pi k / points)): equal side lobes.
 std::vector<double> chebyshev(double level_dB, int length) {
-  check_range("window.level_dB", level_dB, 20.0, 200.0, "20 to 200 dB");
+  core::require_range("window.level_dB", level_dB, {20.0, 200.0}, "dB");
   const int points = length + 1;
   const int order = length;
   const double x0 = std::cosh(std::acosh(std::pow(10.0, level_dB / 20.0)) / order);
@@ -100,7 +95,7 @@ std::vector<double> chebyshev(double level_dB, int length) {
 }
 
 std::vector<double> kaiser(double beta, int length) {
-  check_range("window.kaiser_beta", beta, 0.0, 100.0, "0 to 100");
+  core::require_range("window.kaiser_beta", beta, {0.0, 100.0});
   std::vector<double> weights(static_cast<std::size_t>(length));
   for (int n = 0; n < length; ++n) {
     const double from_centre = 2.0 * n / length - 1.0;

@@ -94,7 +94,7 @@ Report bad_report(const BenchScene& standard, const BenchScene& city) {
   report.rain = DefaultFigures{kRainScene,
                                SequenceFigures{"--caster auto", "", "", 1, 1e4, 0.1},
                                {{2500.0, {kWrong, kWrong}}}};
-  report.layers = {{kDefaultScene, 1.0, kFar}};
+  report.layers = {{kDefaultScene, 1.0, kFar, kFar}};
   CampaignFigures campaigns;
   campaigns.one_thread_s = campaigns.two_threads_s = campaigns.render_s = 1.0;
   campaigns.two_workers_s = campaigns.campaign_s = campaigns.plan_s = campaigns.city_s = 1e4;

@@ -112,9 +112,18 @@ TEST_CASE("A reference of a scene of slices is told as the rays that it is", "[r
   CHECK(has(run, "\"rays_per_cell_and_column\": 2048.0"));
   CHECK(has(run, "\"jittered_passes\": 16"));
   CHECK_FALSE(has(run, "slices_per_"));
-  const std::string sixteen = session::input_fingerprint(*scene, record);
-  record.choice.sampling.jittered_passes = 4;
-  CHECK(session::input_fingerprint(*scene, record) != sixteen);
+  // Seed and rows stood in no fingerprint: a run with another jitter kept the frames that were there.
+  const renderer::Sampling asked = record.choice.sampling;
+  const std::string before = session::input_fingerprint(*scene, record);
+  const auto keeps = [&](const auto& change) {
+    record.choice.sampling = asked;
+    change(record.choice.sampling);
+    return session::input_fingerprint(*scene, record) == before;
+  };
+  CHECK(keeps([](renderer::Sampling&) {}));
+  CHECK_FALSE(keeps([](renderer::Sampling& one) { one.jittered_passes = 4; }));
+  CHECK_FALSE(keeps([](renderer::Sampling& one) { ++one.seed; }));
+  CHECK_FALSE(keeps([](renderer::Sampling& one) { one.largest_step_rows = 0.5; }));
 }
 
 TEST_CASE("Settings stand in the order of the file, a key that is there twice once", "[records]") {

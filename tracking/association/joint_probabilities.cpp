@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "core/number_range.h"
 
 namespace fanbeam::tracking {
 namespace {
@@ -22,21 +23,15 @@ void check(const CostMatrix& likelihood, const std::vector<double>& existence,
   if (existence.size() != static_cast<std::size_t>(likelihood.rows))
     core::throw_input_error(core::ErrorClass::range, "joint.existence",
                             static_cast<double>(existence.size()), "one for each track");
-  for (const double value : likelihood.cost) {
-    if (!std::isfinite(value))
-      core::throw_input_error(core::ErrorClass::nonfinite, "joint.likelihood", value, "finite");
-    if (value < 0.0)
-      core::throw_input_error(core::ErrorClass::range, "joint.likelihood", value, "0 or more");
-  }
+  for (const double value : likelihood.cost)
+    core::require_range("joint.likelihood", value, {.low = 0.0});
   std::vector<double> probabilities = existence;
   probabilities.push_back(settings.detection_probability);
   probabilities.push_back(settings.gate_probability);
   for (const double value : probabilities)
-    if (!(value >= 0.0 && value <= 1.0))
-      core::throw_input_error(core::ErrorClass::range, "joint.probability", value, "0 to 1");
-  if (!(settings.clutter_density > 0.0) || !std::isfinite(settings.clutter_density))
-    core::throw_input_error(core::ErrorClass::range, "joint.clutter_density",
-                            settings.clutter_density, "finite, above 0");
+    core::require_range("joint.probability", value, {0.0, 1.0});
+  core::require_range("joint.clutter_density", settings.clutter_density,
+                      {.low = 0.0, .above_low = true});
 }
 
 // Tracks that share measurements, directly or through others.

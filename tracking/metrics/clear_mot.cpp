@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/errors.h"
+#include "core/number_range.h"
 #include "tracking/association/assignment.h"
 
 namespace fanbeam::tracking {
@@ -68,8 +69,7 @@ void assign_rest(const std::vector<NamedPlace>& targets, const std::vector<Named
 }  // namespace
 
 ClearMot::ClearMot(double gate_m) : gate_m_(gate_m) {
-  if (!(gate_m > 0.0) || !std::isfinite(gate_m))
-    core::throw_input_error(core::ErrorClass::range, "gate_m", gate_m, "finite, above 0");
+  core::require_range("gate_m", gate_m, {.low = 0.0, .above_low = true});
 }
 
 void ClearMot::add_frame(const std::vector<NamedPlace>& targets,

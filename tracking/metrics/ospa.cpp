@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "core/number_range.h"
 #include "tracking/association/assignment.h"
 
 namespace fanbeam::tracking {
@@ -15,14 +16,9 @@ void check(const std::vector<Place>& targets, const std::vector<Place>& tracks,
     for (const Place& place : *places)
       if (!std::isfinite(place.x_m) || !std::isfinite(place.y_m))
         core::throw_input_error(core::ErrorClass::nonfinite, "place", place.x_m, "finite");
-  const auto finite = [](double value) { return std::isfinite(value); };
-  if (!(settings.order >= 1.0) || !finite(settings.order))
-    core::throw_input_error(core::ErrorClass::range, "order", settings.order, "1 or more");
-  if (!(settings.cut_off_m > 0.0) || !finite(settings.cut_off_m))
-    core::throw_input_error(core::ErrorClass::range, "cut_off_m", settings.cut_off_m,
-                            "finite, above 0");
-  if (!(settings.alpha > 0.0 && settings.alpha <= 2.0))
-    core::throw_input_error(core::ErrorClass::range, "alpha", settings.alpha, "above 0, to 2");
+  core::require_range("order", settings.order, {.low = 1.0});
+  core::require_range("cut_off_m", settings.cut_off_m, {.low = 0.0, .above_low = true});
+  core::require_range("alpha", settings.alpha, {0.0, 2.0, true});
 }
 
 // Every place of the smaller set gets one of the larger, at d^p, d cut off.

@@ -7,6 +7,7 @@
 
 #include "core/constants.h"
 #include "core/errors.h"
+#include "core/number_range.h"
 #include "signal/pairing/ghost_free.h"
 #include "signal/waveform/factories.h"
 #include "tracking/simulation/simulation_private.h"
@@ -140,12 +141,8 @@ void add_false(const core::HighwayRadar& radar, const SimulationSettings& settin
 }
 
 void check(const SimulationSettings& settings) {
-  if (!(settings.detection_probability >= 0.0 && settings.detection_probability <= 1.0))
-    core::throw_input_error(core::ErrorClass::range, "detection_probability",
-                            settings.detection_probability, "0 to 1");
-  if (!(settings.false_per_frame >= 0.0 && settings.false_per_frame <= 500.0))
-    core::throw_input_error(core::ErrorClass::range, "false_per_frame", settings.false_per_frame,
-                            "0 to 500");
+  core::require_range("detection_probability", settings.detection_probability, {0.0, 1.0});
+  core::require_range("false_per_frame", settings.false_per_frame, {0.0, 500.0});
 }
 
 }  // namespace

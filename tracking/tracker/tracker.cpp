@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "core/number_range.h"
 #include "tracking/filters/chi_square.h"
 #include "tracking/tracker/tracker_frame_private.h"
 
@@ -25,22 +26,21 @@ RadarMeasurement with_floors(RadarMeasurement one, const TrackerSettings& settin
 void check(const TrackerSettings& settings) {
   if (settings.motion.motions.empty())
     core::throw_input_error(core::ErrorClass::range, "tracker.motion", 0.0, "at least one model");
-  if (!(settings.confirm_ratio > 1.0) || !std::isfinite(settings.confirm_ratio))
-    core::throw_input_error(core::ErrorClass::range, "tracker.confirm_ratio",
-                            settings.confirm_ratio, "finite, above 1");
-  if (settings.confirm_window < 2)
-    core::throw_input_error(core::ErrorClass::range, "tracker.confirm_window",
-                            settings.confirm_window, "2 or more");
-  if (settings.most_coasted < 0)
-    core::throw_input_error(core::ErrorClass::range, "tracker.most_coasted", settings.most_coasted,
-                            "0 or more");
+  core::ProblemList problems;
+  const auto within = [&](const char* field, double value, const core::NumberRange& range) {
+    core::check_range(problems, std::string("tracker.") + field, value, range);
+  };
+  const core::NumberRange above_0{.low = 0.0, .above_low = true};
+  within("confirm_ratio", settings.confirm_ratio, {.low = 1.0, .above_low = true});
+  within("confirm_window", settings.confirm_window, {.low = 2.0});
+  within("most_coasted", settings.most_coasted, {.low = 0.0});
   const double seen = settings.detection.detection_probability;
-  if (!(seen > 0.0 && seen < 1.0) || !(settings.detection.clutter_density > 0.0))
-    core::throw_input_error(core::ErrorClass::range, "tracker.detection_probability", seen,
-                            "above 0 and below 1, with a clutter density above 0");
-  if (!(settings.believed_s > 0.0))
-    core::throw_input_error(core::ErrorClass::range, "tracker.believed_s", settings.believed_s,
-                            "above 0");
+  if (!(seen > 0.0 && seen < 1.0))
+    problems.error(core::ErrorClass::range, {}, "tracker.detection_probability",
+                   core::number_text(seen), "above 0 and below 1");
+  within("clutter_density", settings.detection.clutter_density, above_0);
+  within("believed_s", settings.believed_s, above_0);
+  problems.throw_if_errors();
 }
 
 }  // namespace
