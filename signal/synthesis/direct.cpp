@@ -27,7 +27,7 @@ using HalfLanes [[gnu::vector_size(kHalf * sizeof(double))]] = double;
 FANBEAM_LANES_INLINE void load_half(const double* from, HalfLanes& lanes) {
   std::memcpy(&lanes, from, sizeof(lanes));
 }
-FANBEAM_LANES_INLINE void add_to(double* to, const HalfLanes& lanes) {
+FANBEAM_LANES_INLINE void add_half(double* to, const HalfLanes& lanes) {
   HalfLanes sum;
   load_half(to, sum);
   sum += lanes;
@@ -45,8 +45,8 @@ FANBEAM_HOT(void, add_run, (const PhaseRun& run, int groups, double* re, double*
     load_half(run.turn.re + half, turn_re);
     load_half(run.turn.im + half, turn_im);
     for (int at = half; at < groups * kLanes; at += kLanes) {
-      add_to(re + at, value_re);
-      add_to(im + at, value_im);
+      add_half(re + at, value_re);
+      add_half(im + at, value_im);
       // MovingRun::advance.
       HalfLanes next_re = value_re * step_re - value_im * step_im;
       value_im = value_re * step_im + value_im * step_re;
