@@ -22,7 +22,7 @@
 // Dolph, Proc. IRE 34, 1946.
 //
 // Inputs: length 1 or more; Taylor nbar 1 to 50, level 10 to 120 dB; Chebyshev level 20 to 200 dB;
-// Kaiser beta 0 to 100. E-RANGE otherwise. Weights are not scaled; one of length 1 is 1.
+// Kaiser beta 0 to 100. E-RANGE, E-NONFINITE otherwise. Weights are not scaled; one of length 1 is 1.
 #pragma once
 
 #include <optional>

@@ -1,28 +1,18 @@
 #include "signal/receiver/link_budget.h"
 
-#include <cmath>
-
 #include "core/constants.h"
 #include "signal/checks_private.h"
 
 namespace fanbeam::signal {
-namespace {
-
-void check_least(const char* field, double value, double least) {
-  if (!(std::isfinite(value) && value >= least))
-    refuse(field, value, core::number_text(least) + " or above");
-}
-
-}  // namespace
 
 double received_power_W(const Link& link, double range_m, double cross_section_m2) {
-  check_least("transmitted_W", link.transmitted_W, 0.0);
-  check_least("transmit_gain", link.transmit_gain, 0.0);
-  check_least("receive_gain", link.receive_gain, 0.0);
+  check_not_negative("transmitted_W", link.transmitted_W);
+  check_not_negative("transmit_gain", link.transmit_gain);
+  check_not_negative("receive_gain", link.receive_gain);
   check_positive("wavelength_m", link.wavelength_m);
-  check_least("loss", link.loss, 1.0);
+  core::require_range("loss", link.loss, {.low = 1.0});
   check_positive("range_m", range_m);
-  check_least("cross_section_m2", cross_section_m2, 0.0);
+  check_not_negative("cross_section_m2", cross_section_m2);
   const double four_pi = 4.0 * core::kPi;
   const double spread = link.wavelength_m / (four_pi * range_m * range_m);
   return link.transmitted_W * link.transmit_gain * link.receive_gain * cross_section_m2 * spread *
@@ -30,7 +20,7 @@ double received_power_W(const Link& link, double range_m, double cross_section_m
 }
 
 double noise_density_W_per_Hz(double noise_figure) {
-  check_least("noise_figure", noise_figure, 1.0);
+  core::require_range("noise_figure", noise_figure, {.low = 1.0});
   return core::kBoltzmann_J_per_K * core::kNoiseReferenceTemperature_K * noise_figure;
 }
 

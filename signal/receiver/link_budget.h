@@ -16,8 +16,8 @@ struct Link {
   double loss = 1.0;  // 1 or more
 };
 
-// Refuses (E-RANGE) what is not finite, a range not above 0, a negative cross-section, a loss
-// below 1.
+// Refuses what is not finite (E-NONFINITE), a range not above 0, a negative cross-section, a loss
+// below 1 (E-RANGE).
 double received_power_W(const Link& link, double range_m, double cross_section_m2);
 
 // k T0 F; `noise_figure` as a power ratio of 1 or more.

@@ -4,8 +4,8 @@
 // The clock's zero, to which the range of a ScatterPath belongs: the start of the frame, but of
 // kinds with a triangle the (first) triangle's turnaround, because that is where a pair of beats
 // measures the range (pairing/triangle.h).
-// Every function refuses, with E-RANGE and the field's name: values that are not finite, not
-// positive, or not below each other as stated; and whatever check(Waveform) refuses.
+// Every function refuses, with the field's name, values that are not finite (E-NONFINITE), not
+// positive, or not below each other as stated (E-RANGE); and whatever check(Waveform) refuses.
 // Sources: chirp sequence and triangle: A. G. Stove, IEE Proc. F 139(5), 1992; two slopes and two
 // stages: E. Hyun, W. Oh, J.-H. Lee, "Multi-target detection algorithm for FMCW radar", IEEE Radar
 // Conference 2012; coded flat stretch: Y. Fan, K. Xiang, J. An, X. Bu, 2013; MFSK: H. Rohling,

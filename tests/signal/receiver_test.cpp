@@ -10,12 +10,14 @@
 #include "signal/receiver/mixer.h"
 #include "signal/receiver/receiver_noise.h"
 #include "signal/synthesis/beat_phase.h"
+#include "tests/core/file_checks.h"
 #include "tests/decibel.h"
 #include "tests/signal/default_waveform.h"
 #include "tests/signal/reference_radar.h"
 
 using namespace fanbeam;
 using namespace fanbeam::signal;
+using tests::code_of;
 using tests::dB;
 using tests::kWavelength_m;
 
@@ -58,7 +60,8 @@ TEST_CASE("Link budget of the reference radar to 0.01 dB", "[receiver]") {
     }
   }
   CHECK_THROWS_AS(received_power_W(link, 0.0, 1.0), core::InputError);
-  CHECK_THROWS_AS(received_power_W(link, std::nan(""), 1.0), core::InputError);
+  CHECK(code_of([&] { received_power_W(link, std::nan(""), 1.0); }) == "E-NONFINITE");
+  CHECK(code_of([&] { received_power_W(link, 10.0, std::nan("")); }) == "E-NONFINITE");
   CHECK_THROWS_AS(noise_density_W_per_Hz(0.5), core::InputError);
 }
 

@@ -85,6 +85,24 @@ TEST_CASE("A single false measurement never becomes a track", "[tracker]") {
   CHECK(tracker.tracks().empty());
 }
 
+TEST_CASE("A tracker refuses all wrong settings together", "[tracker]") {
+  TrackerSettings wrong = settings_for();
+  wrong.motion.motions.clear();
+  wrong.confirm_ratio = std::nan("");
+  wrong.confirm_window = 1;
+  wrong.detection.detection_probability = 1.0;
+  wrong.believed_s = 0.0;
+  std::vector<std::string> told;
+  try {
+    const Tracker tracker(wrong);
+  } catch (const core::InputError& error) {
+    for (const core::Problem& problem : error.problems()) told.push_back(problem.field);
+  }
+  CHECK(told == std::vector<std::string>{"tracker.motion", "tracker.confirm_ratio",
+                                         "tracker.confirm_window", "tracker.detection_probability",
+                                         "tracker.believed_s"});
+}
+
 TEST_CASE("K03 K04 a tracker refuses what goes back in time or is no number, unchanged",
           "[tracker]") {
   Tracker tracker(settings_for());

@@ -24,9 +24,9 @@ RadarMeasurement with_floors(RadarMeasurement one, const TrackerSettings& settin
 }
 
 void check(const TrackerSettings& settings) {
-  if (settings.motion.motions.empty())
-    core::throw_input_error(core::ErrorClass::range, "tracker.motion", 0.0, "at least one model");
   core::ProblemList problems;
+  if (settings.motion.motions.empty())
+    problems.error(core::ErrorClass::range, {}, "tracker.motion", "none", "at least one model");
   const auto within = [&](const char* field, double value, const core::NumberRange& range) {
     core::check_range(problems, std::string("tracker.") + field, value, range);
   };
