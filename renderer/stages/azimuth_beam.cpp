@@ -12,74 +12,84 @@
 namespace fanbeam::renderer {
 namespace {
 
-// Four bins side by side: the compiler does not find by itself that a block's sums fit registers.
-using FourBins = double __attribute__((vector_size(32)));
-constexpr int kFours = 4;
-constexpr std::size_t kBlockBins = 4 * kFours;
-static_assert(kBlockBins == FilledBlocks::kBins);
+constexpr std::size_t kBlockBins = FilledBlocks::kBins;
+constexpr std::size_t kBeamColumns = 4;  // columns
 
-// The two-way pattern over the sub-columns that a column reaches, from left to right.
+// The two-way pattern over the sub-columns that a column reaches, from left to right, between zeros
+// for those that only its neighbours on either side reach.
 struct BeamWeights {
   std::vector<double> of_sub_column;
-  std::size_t sub_columns_per_column;
+  std::size_t apart;  // sub-columns from a column to the next
+  std::size_t reach;
+
+  std::size_t zeros() const { return (kBeamColumns - 1) * apart; }
 };
 
 BeamWeights weights_of(const FanSums& fan, const sensors::Sensor& sensor,
                        int sub_columns_per_column) {
   const int margin = margin_sub_columns(sensor, sub_columns_per_column);
   BeamWeights beam;
-  beam.sub_columns_per_column = static_cast<std::size_t>(sub_columns_per_column);
+  beam.apart = static_cast<std::size_t>(sub_columns_per_column);
+  beam.reach = static_cast<std::size_t>(2 * margin + sub_columns_per_column);
+  beam.of_sub_column.assign(beam.reach + 2 * beam.zeros(), 0.0);
   // The same for every column: sub-column s of a column's reach begins this far from the column's
   // centre.
-  for (int s = 0; s < 2 * margin + sub_columns_per_column; ++s) {
-    const double from_rad = (s - margin - sub_columns_per_column / 2.0) * fan.step_rad;
-    beam.of_sub_column.push_back(
-        sensors::two_way_integral(sensor.antenna.azimuth, from_rad, from_rad + fan.step_rad));
+  for (std::size_t s = 0; s < beam.reach; ++s) {
+    const double from_rad =
+        (static_cast<int>(s) - margin - sub_columns_per_column / 2.0) * fan.step_rad;
+    beam.of_sub_column[beam.zeros() + s] =
+        sensors::two_way_integral(sensor.antenna.azimuth, from_rad, from_rad + fan.step_rad);
   }
   return beam;
 }
 
-// A block of bins of two neighbouring columns: weights times bins, `stride` apart, from the left
-// one's first sub-column on. What both reach is read once.
-FANBEAM_HOT(void, weigh_two,
-            (const double* from, std::size_t stride, const double* weights, std::size_t reach,
-             std::size_t apart, double* left, double* right),
-            (from, stride, weights, reach, apart, left, right)) {
-  FourBins left_sum[kFours] = {}, right_sum[kFours] = {};
-  std::size_t s = 0;
-  for (; s < apart; ++s, from += stride) {
-    for (int i = 0; i < kFours; ++i) {
-      FourBins bins;
-      std::memcpy(&bins, from + 4 * i, sizeof bins);
-      left_sum[i] += weights[s] * bins;
+// A block of bins of neighbouring columns: weights times bins, `stride` apart, from the left one's
+// first sub-column on. What they reach is read once, and eight sums of kLanes bins stay in registers,
+// which the compiler does not find by itself.
+template <std::size_t kLanes>
+[[gnu::always_inline]] inline void weigh_by(const double* from, std::size_t stride,
+                                            const double* weights, std::size_t apart,
+                                            std::size_t reached, double* sums) {
+  using Lanes [[gnu::vector_size(kLanes * sizeof(double))]] = double;
+  constexpr std::size_t kParts = 2;
+  for (std::size_t bin = 0; bin < kBlockBins; bin += kParts * kLanes) {
+    Lanes sum[kBeamColumns][kParts] = {};
+    const double* at = from + bin;
+    for (std::size_t s = 0; s < reached; ++s, at += stride) {
+      for (std::size_t part = 0; part < kParts; ++part) {
+        Lanes bins;
+        std::memcpy(&bins, at + kLanes * part, sizeof bins);
+        for (std::size_t column = 0; column < kBeamColumns; ++column)
+          sum[column][part] += weights[s + (kBeamColumns - 1 - column) * apart] * bins;
+      }
     }
+    for (std::size_t column = 0; column < kBeamColumns; ++column)
+      std::memcpy(sums + column * kBlockBins + bin, sum[column], sizeof sum[column]);
   }
-  for (; s < reach; ++s, from += stride) {
-    for (int i = 0; i < kFours; ++i) {
-      FourBins bins;
-      std::memcpy(&bins, from + 4 * i, sizeof bins);
-      left_sum[i] += weights[s] * bins;
-      right_sum[i] += weights[s - apart] * bins;
-    }
-  }
-  for (; s < reach + apart; ++s, from += stride) {
-    for (int i = 0; i < kFours; ++i) {
-      FourBins bins;
-      std::memcpy(&bins, from + 4 * i, sizeof bins);
-      right_sum[i] += weights[s - apart] * bins;
-    }
-  }
-  std::memcpy(left, left_sum, sizeof left_sum);
-  std::memcpy(right, right_sum, sizeof right_sum);
 }
 
-// Fewer bins, or a single column.
+// Vectors as wide as the registers: wider ones would live in memory, ten to thirty times as slow.
+FANBEAM_HOT(void, weigh_together,
+            (const double* from, std::size_t stride, const double* weights, std::size_t apart,
+             std::size_t reached, double* sums),
+            (from, stride, weights, apart, reached, sums)) {
+  switch (core::instruction_level()) {
+    case core::InstructionLevel::v4:
+      return weigh_by<8>(from, stride, weights, apart, reached, sums);
+    case core::InstructionLevel::v3:
+      return weigh_by<4>(from, stride, weights, apart, reached, sums);
+    default:
+      return weigh_by<2>(from, stride, weights, apart, reached, sums);
+  }
+}
+
+// Fewer bins or columns.
 void weigh_one(const double* from, std::size_t stride, std::size_t bins, const BeamWeights& beam,
                double* sums) {
   std::fill_n(sums, bins, 0.0);
-  for (const double weight : beam.of_sub_column) {
+  for (std::size_t s = 0; s < beam.reach; ++s, from += stride) {
+    const double weight = beam.of_sub_column[beam.zeros() + s];
     for (std::size_t bin = 0; bin < bins; ++bin) sums[bin] += weight * from[bin];
-    from += stride;
   }
 }
 
@@ -117,35 +127,31 @@ std::vector<double> apply_azimuth_beam(const std::vector<double>& sums, int bins
                                        const FanSums& fan, const sensors::Sensor& sensor,
                                        int sub_columns_per_column, const FilledBlocks* filled) {
   const BeamWeights beam = weights_of(fan, sensor, sub_columns_per_column);
-  const std::size_t apart = beam.sub_columns_per_column, reach = beam.of_sub_column.size();
   const auto columns = static_cast<std::size_t>(sensor.scan.columns);
   const auto bin_count = static_cast<std::size_t>(bins);
-  const auto sub_columns = static_cast<std::size_t>(fan.sub_columns);
   const std::size_t block_bins = std::min(kBlockBins, bin_count);
+  const std::size_t together = std::min(kBeamColumns, columns);
+  const std::size_t reached = beam.reach + (together - 1) * beam.apart;
   std::vector<double> image(columns * bin_count);
-  // Block after block of bins for all columns: what columns share stays in the cache.
+  // Block after block of bins for all columns: what columns share stays in the cache. The last block
+  // moves back over the one before rather than be a shorter one, and so do the last columns.
   core::parallel_for((bin_count + kBlockBins - 1) / kBlockBins, [&](std::size_t block) {
-    // The last block moves back over the one before rather than be a shorter one.
     const std::size_t begin = std::min(block * kBlockBins, bin_count - block_bins);
-    const auto put = [&](const double* sum, std::size_t column) {
-      for (std::size_t bin = block * kBlockBins - begin; bin < block_bins; ++bin)
-        image[(begin + bin) * columns + column] = sum[bin];
-    };
-    for (std::size_t column = 0; column < columns; column += 2) {
-      const std::size_t reached = std::min((column + 1) * apart + reach, sub_columns);
-      if (filled != nullptr && !any_filled(*filled, column * apart, reached, block)) continue;
-      const double* const from = sums.data() + column * apart * bin_count + begin;
-      double left[kBlockBins], right[kBlockBins];
-      if (block_bins == kBlockBins && column + 1 < columns) {
-        weigh_two(from, bin_count, beam.of_sub_column.data(), reach, apart, left, right);
-        put(left, column);
-        put(right, column + 1);
+    for (std::size_t c = 0; c < columns; c += kBeamColumns) {
+      const std::size_t column = std::min(c, columns - together), first = column * beam.apart;
+      if (filled != nullptr && !any_filled(*filled, first, first + reached, block)) continue;
+      const double* const from = sums.data() + first * bin_count + begin;
+      double weighed[kBeamColumns * kBlockBins];
+      if (block_bins == kBlockBins && together == kBeamColumns) {
+        weigh_together(from, bin_count, beam.of_sub_column.data(), beam.apart, reached, weighed);
       } else {
-        for (std::size_t c = column; c < std::min(column + 2, columns); ++c) {
-          weigh_one(from + (c - column) * apart * bin_count, bin_count, block_bins, beam, left);
-          put(left, c);
-        }
+        for (std::size_t i = 0; i < together; ++i)
+          weigh_one(from + i * beam.apart * bin_count, bin_count, block_bins, beam,
+                    weighed + i * kBlockBins);
       }
+      for (std::size_t i = 0; i < together; ++i)
+        for (std::size_t bin = block * kBlockBins - begin; bin < block_bins; ++bin)
+          image[(begin + bin) * columns + column + i] = weighed[i * kBlockBins + bin];
     }
   });
   return image;
