@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 
-#include "core/errors.h"
 #include "core/parallel.h"
 #include "live/processor_time.h"
 #include "renderer/plan/effects.h"
@@ -88,10 +88,8 @@ bool Quality::look() {
     const std::lock_guard<std::mutex> lock(mutex_);
     errors_[frame->samples] = {made.error->rms_grey, made.error->cscope_rms_grey};
     return true;
-  } catch (const core::InputError&) {
-    return false;  // a pose that nothing can be rendered at
-  } catch (const core::Stopped&) {
-    return false;
+  } catch (const std::exception&) {
+    return false;  // a pose that nothing can be rendered at, no memory, the end: the frames go on
   }
 }
 

@@ -113,3 +113,25 @@ TEST_CASE("Whoever ends does not wait for the next look", "[quality][threads]") 
   { const live::Quality quality(*session, hub, 1000.0); }
   CHECK(live::seconds_between(begin, live::Clock::now()) < 5.0);
 }
+
+// It took the flight with it.
+TEST_CASE("The error of a frame that finds no memory is not told and that of the next one is",
+          "[quality][threads]") {
+  const tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  auto endless = std::make_shared<scenes::Scene>(*session->scene());
+  endless->plan = {};
+  endless->world.sensor.scan.columns = -1;  // as a size: more than any memory has
+  auto frame = std::make_shared<live::LiveFrame>(*frame_at(*session, 1.0, 1));
+  frame->under = session->moment(endless);
+  live::Hub hub;
+  hub.publish(frame);
+  const live::Quality quality(*session, hub, 0.05);
+  std::this_thread::sleep_for(std::chrono::seconds(1));  // it looks
+  live::Status status;
+  status.samples = 1.0;
+  quality.tell(status);
+  CHECK_FALSE(status.errors.has_value());
+  hub.publish(frame_at(*session, 1.0, 2));
+  CHECK(told_by(quality, 1.0).errors.has_value());
+}
