@@ -110,27 +110,35 @@ class Reader {
     return stream_.good();
   }
 
-  // The header of a record, then its `length` bytes; false at the end, whole or cut off.
+  // The header of a record, then its `length` bytes; false at the end, whole or cut off, and where
+  // the file cannot be read on.
   bool read_header(std::span<std::uint8_t> header) {
     record_ = offset_;
     const std::size_t count = read(header);
-    if (count > 0 && count < header.size()) warn_of_cut();
+    if (count < header.size()) end(count > 0);
     return count == header.size();
   }
   bool read_body(std::vector<std::uint8_t>& body, std::size_t length) {
     body.resize(length);
     if (read(body) == length) return true;
-    warn_of_cut();
+    end(true);
     return false;
   }
   std::int64_t record() const { return record_; }
   void refuse(const std::string& field, const std::string& value, const std::string& expected) {
     problems_.error(core::ErrorClass::parse, place(record_), field, value, expected);
   }
+  void refuse_unreadable(std::int64_t offset) {
+    problems_.error(core::ErrorClass::io, place(offset), "packet file", "not readable",
+                    "a file that can be read");
+  }
 
  private:
-  void warn_of_cut() {
-    problems_.warning("CUT", place(record_), "last record", "cut off", "left out");
+  void end(bool in_record) {
+    if (stream_.bad())
+      refuse_unreadable(record_);
+    else if (in_record)
+      problems_.warning("CUT", place(record_), "last record", "cut off", "left out");
   }
 
   std::string file_;
@@ -217,15 +225,13 @@ void read_datagrams(const std::filesystem::path& file, const EachDatagram& each,
     problems.error(core::ErrorClass::ref, reader.place(0), "packet file", what, expected);
   };
   if (!reader.is_open()) {
-    problems.error(core::ErrorClass::io, reader.place(-1), "packet file", "not readable",
-                   "a file that can be read");
+    reader.refuse_unreadable(-1);
     return;
   }
   const std::size_t count = reader.read(first);
   const auto kind = capture_kind(first);
   if (!reader.begin_again())
-    problems.error(core::ErrorClass::io, reader.place(-1), "packet file", "not readable",
-                   "a file that can be read");
+    reader.refuse_unreadable(-1);
   else if (count < first.size())
     refuse("fewer than 8 bytes", "a packet capture (pcap), or raw datagrams");
   else if (Fields(first, kSwapLittle).at<std::uint32_t>(0) == 0x0a0d0d0a)

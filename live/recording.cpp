@@ -115,12 +115,13 @@ class Lines {
 }  // namespace
 
 Recording read_recording(const std::filesystem::path& file) {
+  constexpr const char *kReadable = "a file that can be read", *kNot = "cannot be read";
   std::ifstream stream(file, std::ios::binary);
   std::error_code error;
   const std::uint64_t size = std::filesystem::file_size(file, error);
   if (!stream || error)
     core::throw_input_error(core::ErrorClass::io, core::Place{file.string()}, "--replay",
-                            error ? error.message() : "cannot be read", "a file that can be read");
+                            error ? error.message() : kNot, kReadable);
   if (size > kMost_bytes)
     core::throw_input_error(core::ErrorClass::limit, core::Place{file.string()}, "--replay",
                             fmt::format("{} bytes", size), "at most 2 GiB");
@@ -135,6 +136,8 @@ Recording read_recording(const std::filesystem::path& file) {
     if (number > 1) lines.take(text, name);
     if (problems.all().size() >= kMostProblems) break;
   }
+  if (stream.bad())
+    problems.error(core::ErrorClass::io, {file.string()}, "--replay", kNot, kReadable);
   if (recording.flown_by.from.empty() && problems.all().empty())
     problems.error(core::ErrorClass::parse, {file.string()}, "", "empty",
                    "what fanbeam live --record writes");

@@ -1,13 +1,16 @@
 // Recorded datagrams: captures put together by hand, one that tcpdump wrote, and files that are none.
 #include "feeds/packet_file.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <limits>
+#include <utility>
 
 #include "tests/feeds/packet_bytes.h"
+#include "tests/open_descriptor.h"
 #include "tests/shared_data.h"
 
 using namespace fanbeam;
@@ -31,12 +34,18 @@ struct Reading {
   std::string problems;  // "E-PARSE@24" each
 };
 
-Reading read(const std::filesystem::path& file) {
+// `breaks`: after the first datagram the system reads no more of the file.
+Reading read(const std::filesystem::path& file, bool breaks = false) {
   Reading reading;
   core::ProblemList problems;
   feeds::read_datagrams(
       file,
       [&](const feeds::RecordedDatagram& datagram) {
+        if (std::exchange(breaks, false)) {
+          const int folder = ::open("/", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+          ::dup2(folder, tests::open_descriptor(file));  // reading one is an error
+          ::close(folder);
+        }
         reading.datagrams.push_back(
             {datagram.time_s, datagram.port, {datagram.bytes.begin(), datagram.bytes.end()}});
       },
@@ -47,12 +56,12 @@ Reading read(const std::filesystem::path& file) {
   return reading;
 }
 
-Reading read(const Bytes& bytes) {
+Reading read(const Bytes& bytes, bool breaks = false) {
   const auto file =
       std::filesystem::temp_directory_path() / ("fanbeam_packets_" + std::to_string(getpid()));
   std::ofstream(file, std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
-  Reading reading = read(file);
+  Reading reading = read(file, breaks);
   std::filesystem::remove(file);
   return reading;
 }
@@ -141,6 +150,18 @@ TEST_CASE("A recording that was killed loses its last record alone", "[packet_fi
   CHECK(whole.datagrams[1].time_s == 0.5);
   CHECK(whole.datagrams[1].port == 8);
   CHECK(whole.datagrams[1].bytes == kPayload);
+}
+
+// It was a shorter flight, or one whose last record was cut off.
+TEST_CASE("A file that the system cannot read on is told", "[packet_file]") {
+  // A stream reads 8191 bytes ahead: the second record breaks off, or does not begin.
+  for (const std::size_t record_bytes : {6000U, 8191U}) {
+    Bytes raw;
+    for (int i = 0; i < 4; ++i) append_raw(raw, i, 7, Bytes(record_bytes - 12, 1));
+    const Reading reading = read(raw, true);
+    CHECK(reading.problems == "E-IO@" + std::to_string(record_bytes));
+    CHECK(reading.datagrams.size() == 1);
+  }
 }
 
 TEST_CASE("Other files are refused with what they are", "[packet_file]") {

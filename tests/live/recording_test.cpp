@@ -404,3 +404,10 @@ TEST_CASE("The last line of a channel that was killed is left out", "[recording]
                        "\n{\"frame\":1,\"now_s\":1,\"at_s\":1,\"samples\":1}\n{\"frame\":2,\"no"));
   CHECK(recording.events.size() == 1);
 }
+
+// It was told to be empty; had it begun well, the rest would have been missing without a word.
+TEST_CASE("A recording that the system cannot read on is no shorter one", "[recording]") {
+  const auto problems = problems_of("/proc/self/mem");  // opens, and refuses its first byte
+  REQUIRE(problems.size() == 1);
+  CHECK(problems[0].code == "E-IO");
+}
