@@ -54,6 +54,7 @@ class Desk {
   // Thread-safe. Never throws for what stands in the request.
   Answer answer(const Request& request) const;
   // What a POST with that body does. Throws InputError with all that is wrong, and changes nothing then.
+  // What `journal` cannot write is no fault of the body's: the control is in force, and the flight ends.
   void control(const std::string& path, const std::string& body) const;
   // A POST to /api/weather with what `body_of` makes of the weather of now: no control comes in between.
   void change_weather(const std::function<std::string(const atmosphere::Weather&)>& body_of) const;

@@ -39,12 +39,14 @@ Journal::Journal(const std::filesystem::path& file, const FlownBy& flown_by)
 void Journal::begin() {
   const std::lock_guard<std::mutex> lock(writing_);
   put("");
+  fault_.throw_if_errors();
 }
 
 void Journal::packet(double arrived_s, std::span<const std::uint8_t> bytes, std::size_t source) {
   json line{{"packet", hex(bytes)}, {"s", arrived_s}};
   if (source > 0) line["from"] = source;
   write(line.dump());
+  throw_if_failed();
 }
 
 void Journal::frame(const Tick& tick, double samples) {
@@ -60,11 +62,17 @@ void Journal::made(bool shown) {
   frame_.clear();
   behind_.clear();
   put(lines);
+  fault_.throw_if_errors();
 }
 
 void Journal::control(const std::string& path, const std::string& body) {
   write(
       json{{"control", path}, {"body", body}}.dump(-1, ' ', true, json::error_handler_t::replace));
+}
+
+void Journal::throw_if_failed() {
+  const std::lock_guard<std::mutex> lock(writing_);
+  fault_.throw_if_errors();
 }
 
 // Each line at once, so that a channel that is killed leaves all that it did.
@@ -77,11 +85,16 @@ void Journal::write(const std::string& line) {
 }
 
 void Journal::put(const std::string& text) {
-  if (!head_.empty()) {
-    file_.begin();
-    file_.write(std::exchange(head_, ""));
+  if (fault_.has_errors()) return;
+  try {
+    if (!head_.empty()) {
+      file_.begin();
+      file_.write(std::exchange(head_, ""));
+    }
+    file_.write(text);
+  } catch (const core::InputError& error) {
+    fault_.append(error.problems());
   }
-  file_.write(text);
 }
 
 }  // namespace fanbeam::live

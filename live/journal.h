@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "core/errors.h"
 #include "live/own_file.h"
 
 namespace fanbeam::live {
@@ -41,8 +42,9 @@ struct Tick {
 
 class Journal {
  public:
-  // Throws InputError E-IO, also where another process records there, and does so when lines cannot be
-  // written: what stands there is whole up to the line before.
+  // Throws InputError E-IO, also where another process records there. When lines cannot be written,
+  // what stands there is whole up to the line before, nothing comes behind it, and whoever flies is
+  // told so by that error: from begin(), packet(), made() and throw_if_failed().
   Journal(const std::filesystem::path& file, const FlownBy& flown_by);
 
   // The channel flies: what was in the file is gone. The first line that is written does so too.
@@ -53,7 +55,9 @@ class Journal {
   void frame(const Tick& tick, double samples);
   // The frame is there to be shown, or will never be: then its line is left out.
   void made(bool shown);
+  // Of any thread, which is told nothing where it cannot be written: it is in force all the same.
   void control(const std::string& path, const std::string& body);
+  void throw_if_failed();
 
   // While it is held no control comes into force: whoever sets one, or takes the conditions of a
   // frame, holds it until that is written.
@@ -67,6 +71,7 @@ class Journal {
   std::string head_;  // until it is written
   std::mutex conditions_, writing_;
   std::string frame_, behind_;  // lines of the frame that is being made, and of what came since
+  core::ProblemList fault_;     // of the first line that could not be written
 };
 
 }  // namespace fanbeam::live

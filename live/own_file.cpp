@@ -40,10 +40,15 @@ void OwnFile::begin() {
 }
 
 void OwnFile::write(std::string_view bytes) {
+  const off_t from = ::lseek(descriptor_, 0, SEEK_CUR);
   while (!bytes.empty()) {
     const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) refuse(errno);
+    if (count < 0) {
+      const int reason = errno;
+      if (regular_ && ::ftruncate(descriptor_, from) == 0) ::lseek(descriptor_, from, SEEK_SET);
+      refuse(reason);
+    }
     bytes.remove_prefix(static_cast<std::size_t>(count));
   }
 }

@@ -19,7 +19,7 @@ class OwnFile {
   // What was in it is gone. Once.
   void begin();
   int descriptor() const { return descriptor_; }
-  // Throw InputError E-IO.
+  // Throw InputError E-IO. Of bytes that are refused a file keeps none; what a pipe took is gone.
   void write(std::string_view bytes);
   void close();
 

@@ -124,6 +124,7 @@ class LiveRun {
         weather->follow();
         now.weather_refusal = weather->refusal();
       }
+      if (journal_) journal_->throw_if_failed();  // of a control
       if (listens) {
         listener_.tell(now);
         if (const std::uint64_t faults = network_.faults(); faults > 0)

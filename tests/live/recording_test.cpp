@@ -11,6 +11,7 @@
 #include "live/frame_maker.h"
 #include "live/replay.h"
 #include "tests/feeds/native_fdm_bytes.h"
+#include "tests/live/file_size_limit.h"
 #include "tests/live/live_scene.h"
 
 using namespace fanbeam;
@@ -403,6 +404,64 @@ TEST_CASE("The last line of a channel that was killed is left out", "[recording]
       "cut.jsonl", std::string(kHead) +
                        "\n{\"frame\":1,\"now_s\":1,\"at_s\":1,\"samples\":1}\n{\"frame\":2,\"no"));
   CHECK(recording.events.size() == 1);
+}
+
+// Half a line stayed, the next ones came behind it, and the recording was refused as a whole.
+TEST_CASE("A control that finds no room leaves whole lines and ends recording and flight",
+          "[recording]") {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.path() / "flight.jsonl";
+  const auto session = tests::live_session(folder);
+  live::Hub hub;
+  live::Journal journal(file, {"s", {"native-fdm:1"}, 16.0, false});
+  const live::Desk desk(*session, hub, &journal);
+  const std::vector<std::uint8_t> packet{1, 2};
+  journal.packet(0.1, packet);
+  const auto whole_bytes = std::filesystem::file_size(file);
+  int status = 0;
+  {
+    const tests::FileSizeLimit limit(whole_bytes + 10);
+    status = desk.answer({"POST",
+                          "/api/weather",
+                          "localhost",
+                          {},
+                          "application/json",
+                          R"({"rain_rate_mm_per_h": 4})"})
+                 .status;
+  }
+  CHECK(status == 200);  // it is in force
+  CHECK(session->scene()->weather.rain_rate_mm_per_h == 4.0);
+  CHECK(std::filesystem::file_size(file) == whole_bytes);
+  // There is room again, but nothing comes behind what is missing.
+  CHECK_THROWS_AS(journal.throw_if_failed(), core::InputError);
+  CHECK_THROWS_AS(journal.packet(0.2, packet), core::InputError);
+  journal.frame({1, 0.2, 0.2}, 1.0);
+  CHECK_THROWS_AS(journal.made(true), core::InputError);
+  CHECK(std::filesystem::file_size(file) == whole_bytes);
+  CHECK(live::read_recording(file).events.size() == 1);
+}
+
+// It was in no picture that was shown.
+TEST_CASE("A frame whose lines find no room for all of them is in no recording", "[recording]") {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.path() / "flight.jsonl";
+  live::Journal journal(file, {"s", {"circle"}, 16.0, false});
+  journal.begin();
+  const auto whole_bytes = std::filesystem::file_size(file);
+  journal.frame({1, 0.1, 0.1}, 1.0);
+  journal.control("/api/weather", std::string(1000, ' '));
+  bool told = false;
+  {
+    const tests::FileSizeLimit limit(whole_bytes + 500);
+    try {
+      journal.made(true);
+    } catch (const core::InputError& error) {
+      told = error.has(core::ErrorClass::io);
+    }
+  }
+  CHECK(told);
+  CHECK(std::filesystem::file_size(file) == whole_bytes);
+  CHECK(live::read_recording(file).events.empty());
 }
 
 // It was told to be empty; had it begun well, the rest would have been missing without a word.

@@ -8,9 +8,12 @@
 
 #include <array>
 #include <catch2/catch.hpp>
+#include <filesystem>
+#include <optional>
 #include <stdexcept>
 
 #include "feeds/xplane.h"
+#include "tests/live/file_size_limit.h"
 #include "tests/live/live_scene.h"
 #include "tests/live/loopback.h"
 
@@ -119,4 +122,76 @@ TEST_CASE("The token of the environment counts where no file of one is named", "
     CHECK(core::to_string(error.problems().front()).find(live::kTokenVariable) !=
           std::string::npos);
   }
+}
+
+namespace {
+
+// What the page says to a control.
+std::string answer_to_control(std::uint16_t port, const std::string& path,
+                              const std::string& body) {
+  const int wire = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in at{};
+  at.sin_family = AF_INET;
+  at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  at.sin_port = htons(port);
+  const std::string request = "POST " + path +
+                              " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) +
+                              "\r\nConnection: close\r\nContent-Type: application/json\r\n"
+                              "Content-Length: " +
+                              std::to_string(body.size()) + "\r\n\r\n" + body;
+  std::string answer;
+  std::array<char, 2000> bytes{};
+  if (::connect(wire, reinterpret_cast<const sockaddr*>(&at), sizeof at) == 0 &&
+      ::send(wire, request.data(), request.size(), MSG_NOSIGNAL) ==
+          static_cast<ssize_t>(request.size()))
+    for (ssize_t size = 0; (size = ::recv(wire, bytes.data(), bytes.size(), 0)) > 0;)
+      answer.append(bytes.data(), static_cast<std::size_t>(size));
+  ::close(wire);
+  return answer;
+}
+
+// The problems that a run ends with; none of one that ends well.
+std::vector<core::Problem> problems_of_run(const live::RunSettings& settings,
+                                           const live::RunCallbacks& calls) {
+  try {
+    live::run_live(settings, live::wiring_of(settings, nullptr), nullptr, "here", calls);
+  } catch (const core::InputError& error) {
+    return error.problems();
+  }
+  return {};
+}
+
+}  // namespace
+
+// It went on, with a recording that nobody could read, to a good end.
+TEST_CASE("A run ends with an error when a control of its page finds no room in the recording",
+          "[live][threads]") {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.path() / "flight.jsonl";
+  const live::RunSettings settings{
+      .from = {"native-fdm:0"}, .http = "0", .record = file.string(), .seconds = 20.0};
+  std::optional<tests::FileSizeLimit> limit;
+  std::uint16_t page = 0;
+  std::string answer;
+  const live::RunCallbacks calls{
+      .open = [&](const std::string&) { return tests::live_session(folder); },
+      .page =
+          [&](const std::string&, std::uint16_t port) {
+            page = port;
+            limit.emplace(std::filesystem::file_size(file) + 10);
+          },
+      .status =
+          [&] {
+            return [&](const live::Status&, int) {
+              if (answer.empty())
+                answer = answer_to_control(page, "/api/weather", R"({"rain_rate_mm_per_h": 4})");
+            };
+          }};
+  const std::vector<core::Problem> problems = problems_of_run(settings, calls);
+  limit.reset();
+  CHECK(answer.starts_with("HTTP/1.1 200"));
+  REQUIRE(problems.size() == 1);
+  CHECK(problems[0].code == "E-IO");
+  CHECK(problems[0].place.file == file.string());
+  CHECK(live::read_recording(file).events.empty());
 }
