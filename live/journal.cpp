@@ -75,6 +75,12 @@ void Journal::throw_if_failed() {
   fault_.throw_if_errors();
 }
 
+void Journal::close() {
+  const std::lock_guard<std::mutex> lock(writing_);
+  fault_.throw_if_errors();
+  file_.close();
+}
+
 // Each line at once, so that a channel that is killed leaves all that it did.
 void Journal::write(const std::string& line) {
   const std::lock_guard<std::mutex> lock(writing_);
@@ -85,7 +91,8 @@ void Journal::write(const std::string& line) {
 }
 
 void Journal::put(const std::string& text) {
-  if (fault_.has_errors()) return;
+  const bool closed = file_.descriptor() < 0;
+  if (closed || fault_.has_errors()) return;
   try {
     if (!head_.empty()) {
       file_.begin();

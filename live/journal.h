@@ -44,7 +44,7 @@ class Journal {
  public:
   // Throws InputError E-IO, also where another process records there. When lines cannot be written,
   // what stands there is whole up to the line before, nothing comes behind it, and whoever flies is
-  // told so by that error: from begin(), packet(), made() and throw_if_failed().
+  // told so by that error: from begin(), packet(), made(), throw_if_failed() and close().
   Journal(const std::filesystem::path& file, const FlownBy& flown_by);
 
   // The channel flies: what was in the file is gone. The first line that is written does so too.
@@ -58,6 +58,9 @@ class Journal {
   // Of any thread, which is told nothing where it cannot be written: it is in force all the same.
   void control(const std::string& path, const std::string& body);
   void throw_if_failed();
+  // The flight is over; what still comes is left out. Throws as above, also where the system refuses
+  // only now.
+  void close();
 
   // While it is held no control comes into force: whoever sets one, or takes the conditions of a
   // frame, holds it until that is written.

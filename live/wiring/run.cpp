@@ -147,6 +147,7 @@ class LiveRun {
     std::optional<Farewell> farewell;
     if (listens) farewell.emplace(listener_, network_);
     fly_until(end, asked, settings, each_frame);
+    if (journal_) journal_->close();
     continued_.frames = hub_.status().frames;
     if (const auto newest = hub_.newest()) continued_.newest_number = newest->number;
   }

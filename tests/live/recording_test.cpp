@@ -437,6 +437,7 @@ TEST_CASE("A control that finds no room leaves whole lines and ends recording an
   CHECK_THROWS_AS(journal.packet(0.2, packet), core::InputError);
   journal.frame({1, 0.2, 0.2}, 1.0);
   CHECK_THROWS_AS(journal.made(true), core::InputError);
+  CHECK_THROWS_AS(journal.close(), core::InputError);
   CHECK(std::filesystem::file_size(file) == whole_bytes);
   CHECK(live::read_recording(file).events.size() == 1);
 }
@@ -461,6 +462,17 @@ TEST_CASE("A frame whose lines find no room for all of them is in no recording",
   }
   CHECK(told);
   CHECK(std::filesystem::file_size(file) == whole_bytes);
+  CHECK(live::read_recording(file).events.empty());
+}
+
+TEST_CASE("What comes after a recording was closed is left out", "[recording]") {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.path() / "flight.jsonl";
+  live::Journal journal(file, {"s", {"circle"}, 16.0, false});
+  journal.begin();
+  journal.close();
+  journal.control("/api/weather", "{}");  // the page is there a little longer
+  CHECK_NOTHROW(journal.throw_if_failed());
   CHECK(live::read_recording(file).events.empty());
 }
 

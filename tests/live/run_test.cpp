@@ -16,6 +16,7 @@
 #include "tests/live/file_size_limit.h"
 #include "tests/live/live_scene.h"
 #include "tests/live/loopback.h"
+#include "tests/open_descriptor.h"
 
 using namespace fanbeam;
 
@@ -194,4 +195,26 @@ TEST_CASE("A run ends with an error when a control of its page finds no room in 
   CHECK(problems[0].code == "E-IO");
   CHECK(problems[0].place.file == file.string());
   CHECK(live::read_recording(file).events.empty());
+}
+
+TEST_CASE("A run ends with an error when the system refuses its recording as it is closed",
+          "[live]") {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.path() / "flight.jsonl";
+  const live::RunSettings settings{
+      .http = "0", .rays_per_cell = 1.0, .lockstep = true, .record = file.string(), .frames = 2};
+  const live::RunCallbacks calls{
+      .open = [&](const std::string&) { return tests::live_session(folder); },
+      .page = [](const std::string&, std::uint16_t) {},
+      .status =
+          [&] {
+            return [&](const live::Status& now, int) {
+              if (now.frames == 2) ::close(tests::open_descriptor(file));  // the last one
+            };
+          }};
+  const std::vector<core::Problem> problems = problems_of_run(settings, calls);
+  REQUIRE(problems.size() == 1);
+  CHECK(problems[0].code == "E-IO");
+  CHECK(problems[0].place.file == file.string());
+  CHECK(live::read_recording(file).events.size() == 2);
 }
