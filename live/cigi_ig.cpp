@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <utility>
+#include <variant>
 
 #include "core/errors.h"
 #include "live/cigi_answers.h"
@@ -16,7 +18,6 @@ namespace {
 namespace cigi = feeds::cigi;
 
 constexpr std::int8_t kNoDatabase = -128;
-constexpr std::size_t kMostAsked = 1024, kMostPeriodic = 1024;
 // Messages whose conditions wait: as many as poses do. Those beyond are in force early.
 constexpr std::size_t kMostSaid = Mailbox::kKeptInLockstep;
 constexpr std::size_t kDatagram_bytes = 1400;  // stays whole on any network
@@ -156,8 +157,7 @@ void CigiIg::place(const cigi::EntityControl& packet, double time_s,
 bool CigiIg::enter(cigi::Mode mode) {
   if (mode != cigi::Mode::standby || station_.control.mode == cigi::Mode::standby) return false;
   entities_.clear();
-  periodic_.clear();
-  asked_.clear();
+  questions_.clear();
   view_ = {};
   host_time_.clear();
   return true;
@@ -174,8 +174,8 @@ void CigiIg::take(const cigi::HostPacket& packet, double time_s, const terrain::
                  [&](const cigi::RateControl& one) { entities_.move(one); },
                  [&](const cigi::ViewControl& one) { view_ = one; },
                  [&](const cigi::CelestialControl& one) { count_unless(set(one), 9); },
-                 [&](const cigi::HeightRequest& one) { ask(one, one.update_period); },
-                 [&](const cigi::SightRequest& one) { ask(one, one.update_period); },
+                 [&](const cigi::HeightRequest& one) { questions_.ask(one, said.host_frame); },
+                 [&](const cigi::SightRequest& one) { questions_.ask(one, said.host_frame); },
                  [&](const auto& of_conditions) { said.packets.emplace_back(of_conditions); },
              },
              packet);
@@ -214,24 +214,8 @@ bool CigiIg::set(const cigi::CelestialControl& packet) {
   return true;
 }
 
-void CigiIg::ask(const Question& question, std::uint8_t period) {
-  const std::uint16_t number = std::visit([](const auto& one) { return one.request; }, question);
-  const Asked asked{question, station_.control.host_frame};
-  const auto key = std::pair(question.index(), number);
-  if (period == 0) {
-    periodic_.erase(key);
-    if (asked_.size() < kMostAsked)
-      asked_.push_back(asked);
-    else
-      ++unanswered_;
-  } else if (periodic_.size() < kMostPeriodic || periodic_.contains(key)) {
-    periodic_[key] = {asked, period};
-  } else {
-    ++unanswered_;
-  }
-}
-
-std::vector<std::uint8_t> CigiIg::answer(const scenes::Scene& scene, const Asked& asked) const {
+std::vector<std::uint8_t> CigiIg::answer(const scenes::Scene& scene,
+                                         const CigiQuestions::Asked& asked) const {
   if (const auto* height = std::get_if<cigi::HeightRequest>(&asked.question))
     return cigi::height_response(
         height_answer(scene, datum_, *height, entities_.pose(height->entity)), asked.host_frame);
@@ -339,13 +323,12 @@ std::vector<std::uint8_t> CigiIg::start_of_frame(Clock::time_point now) {
 
 std::vector<std::uint8_t> CigiIg::answers(const scenes::Scene& scene, std::size_t room_bytes) {
   constexpr std::size_t kLargestAnswer_bytes = 56;
-  for (auto& [key, periodic] : periodic_)
-    if (station_.ig_frame % periodic.second == 0 && asked_.size() < kMostAsked)
-      asked_.push_back({periodic.first.question, station_.control.host_frame});
+  questions_.begin_frame(station_.ig_frame);
   std::vector<std::uint8_t> all;
-  while (!asked_.empty() && all.size() + kLargestAnswer_bytes <= room_bytes) {
-    append(all, answer(scene, asked_.front()));
-    asked_.pop_front();
+  while (all.size() + kLargestAnswer_bytes <= room_bytes) {
+    const auto asked = questions_.next(station_.control.host_frame);
+    if (!asked) break;
+    append(all, answer(scene, *asked));
   }
   return all;
 }
@@ -399,7 +382,8 @@ void CigiIg::tell(Status& status) const {
   unused("with a number that is not finite", nonfinite_);
   unused("with a position that cannot be", impossible_);
   unused("entities beyond 4096 at a time", too_many_);
-  unused("questions beyond 1024 at a time", unanswered_);
+  unused("questions beyond 1024 at a time", questions_.too_many());
+  unused("periods of questions that still waited", questions_.periods_left_out());
 }
 
 }  // namespace fanbeam::live

@@ -10,8 +10,8 @@
 // Weather, ground, sensor and view: live/cigi_conditions.h. In force with the next frame; in lockstep with
 // that of their own message, whatever has come behind it.
 // Questions (cigi_answers.h) are answered in the next frame, periodic ones again and again; at most
-// what one datagram holds, the others in the frames after. Packets with no meaning here are counted by
-// name.
+// what one datagram holds, the others in the frames after, by turns (cigi_questions.h). Packets with no meaning
+// here are counted by name.
 //
 // An entity whose place cannot be, or is not finite, gives no pose: what was told of it before is no news.
 //
@@ -24,19 +24,17 @@
 #include <array>
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
-#include <variant>
 #include <vector>
 
 #include "feeds/cigi/host_packets.h"
 #include "feeds/cigi/ig_packets.h"
 #include "live/cigi_conditions.h"
 #include "live/cigi_entities.h"
+#include "live/cigi_questions.h"
 #include "live/hub.h"
 #include "live/mailbox.h"
 #include "session/session.h"
@@ -89,11 +87,6 @@ class CigiIg {
   void tell(Status& status) const;
 
  private:
-  using Question = std::variant<feeds::cigi::HeightRequest, feeds::cigi::SightRequest>;
-  struct Asked {
-    Question question;
-    std::uint32_t host_frame = 0;
-  };
   struct Heard {
     feeds::cigi::HostMessage message;
     std::vector<std::uint8_t> datagram;
@@ -119,8 +112,8 @@ class CigiIg {
   void heed_said(const scenes::Scene& scene);
   void come_into_force();
   bool set(const feeds::cigi::CelestialControl& packet);
-  void ask(const Question& question, std::uint8_t period);
-  std::vector<std::uint8_t> answer(const scenes::Scene& scene, const Asked& asked) const;
+  std::vector<std::uint8_t> answer(const scenes::Scene& scene,
+                                   const CigiQuestions::Asked& asked) const;
   void apply(CigiConditions::Changes& changes);
   std::vector<std::uint8_t> answers(const scenes::Scene& scene, std::size_t room_bytes);
   std::int8_t told_database() const;
@@ -137,8 +130,7 @@ class CigiIg {
   feeds::cigi::ViewControl view_{};
   std::optional<Heard> jumped_;          // waits
   std::vector<std::uint16_t> unplaced_;  // entities, of the message that is being heeded
-  std::deque<Asked> asked_;
-  std::map<std::pair<std::size_t, std::uint16_t>, std::pair<Asked, std::uint8_t>> periodic_;
+  CigiQuestions questions_;
   std::deque<Said> said_;        // oldest first
   std::uint64_t letter_, made_;  // the newest whose frame was begun, and made; free-running: any
   CigiConditions conditions_;
@@ -147,7 +139,7 @@ class CigiIg {
   std::int8_t refused_ = 0;                   // database that cannot be opened; 0: none
   std::vector<std::string> refusals_;         // to be told
   std::uint64_t messages_ = 0, foreign_ = 0, late_ = 0, jumps_ = 0, nonfinite_ = 0;
-  std::uint64_t impossible_ = 0, too_many_ = 0, unanswered_ = 0;
+  std::uint64_t impossible_ = 0, too_many_ = 0;
   std::array<std::uint64_t, 6> faults_{};
   std::array<std::uint64_t, 256> passed_over_{};
 };

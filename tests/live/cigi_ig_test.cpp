@@ -9,6 +9,7 @@
 #include <numeric>
 #include <random>
 #include <utility>
+#include <variant>
 
 #include "core/units.h"
 #include "live/cigi_answers.h"
@@ -439,6 +440,99 @@ TEST_CASE("F15 questions beyond a datagram wait, beyond a thousand they are coun
   }
   CHECK(answers == 1024);
   CHECK(all_of(station.told().unused_packets) == 1500 - 1024);
+}
+
+// Those of low numbers were answered in every frame, most others never again.
+TEST_CASE(
+    "F15 questions with a period beyond a datagram are answered by turns, single ones at once",
+    "[cigi]") {
+  Station station;
+  std::vector<Bytes> questions;
+  constexpr std::uint16_t kPeriodic = 300;
+  for (std::uint16_t i = 0; i < kPeriodic; ++i)
+    questions.push_back(height_request(i, 52.0, 10.0, 120.0, 0, 1));
+  station.hear(message(1, questions));
+  std::array<int, kPeriodic> answers{};
+  int in_all = 0;
+  const auto answer_frame = [&](std::uint32_t host_frame) {
+    bool single = false;
+    const Bytes told = station.ig.begin_frame();
+    CHECK(told.size() <= 1472);
+    const auto packets = packets_in(told);
+    for (std::size_t i = 1; i < packets.size(); ++i) {
+      const auto number = packets[i].second.at<std::uint16_t>(2);
+      // Of the frame in which it is given, not of that in which it came to wait.
+      CHECK(packets[i].second.bits(4, 4, 4) == host_frame);
+      if (number < kPeriodic) {
+        ++answers.at(number);
+        ++in_all;
+      } else {
+        single = true;
+      }
+    }
+    return single;
+  };
+  for (std::uint32_t frame = 1; frame < 40; ++frame) {
+    const std::uint32_t host_frame = frame < 20 ? 1 : 2;
+    // One that is asked once beside them is in the next frame.
+    if (frame == 20) station.hear(message(2, {height_request(kPeriodic, 52.0, 10.0, 120.0, 0)}));
+    CHECK(answer_frame(host_frame) == (frame == 20));
+  }
+  const auto [fewest, most] = std::minmax_element(answers.begin(), answers.end());
+  CHECK(*fewest >= 10);
+  CHECK(*most <= *fewest + 1);
+  // Each period was answered, or left out, or its question still waits.
+  const auto unused = station.told().unused_packets;
+  REQUIRE(unused.size() == 1);
+  CHECK(unused[0].first == "periods of questions that still waited");
+  const std::uint64_t told = unused[0].second + static_cast<std::uint64_t>(in_all),
+                      periods = std::uint64_t{39} * kPeriodic;
+  CHECK(told <= periods);
+  CHECK(told + kPeriodic >= periods);
+}
+
+TEST_CASE("F15 many single questions keep out none with a period", "[cigi]") {
+  Station station;
+  constexpr std::uint16_t kSingle = 500;
+  std::vector<Bytes> questions;
+  for (std::uint16_t i = 0; i < kSingle; ++i)
+    questions.push_back(height_request(i, 52.0, 10.0, 120.0, 0));
+  questions.push_back(height_request(kSingle, 52.0, 10.0, 120.0, 0, 1));
+  station.hear(message(1, questions));
+  const auto periodic_answers = [&] {
+    const auto packets = packets_in(station.ig.begin_frame());
+    CHECK(packets.size() > 1);
+    return std::count_if(packets.begin() + 1, packets.end(), [](const Told& told) {
+      return told.second.at<std::uint16_t>(2) == kSingle;
+    });
+  };
+  for (int frame = 0; frame < 5; ++frame) CHECK(periodic_answers() == 1);
+  CHECK(station.told().unused_packets.empty());
+}
+
+// Asked once while it waits, it has no period any more.
+TEST_CASE("A question that is asked anew takes the place of the one that waits", "[cigi]") {
+  live::CigiQuestions questions;
+  HeightRequest request;
+  request.update_period = 1;
+  questions.ask(request, 1);
+  questions.begin_frame(1);
+  request.place.x = 0.5;
+  questions.ask(request, 2);
+  auto asked = questions.next(3);
+  REQUIRE(asked);
+  CHECK(asked->host_frame == 3);
+  CHECK(std::get<HeightRequest>(asked->question).place.x == 0.5);
+  CHECK_FALSE(questions.next(3));
+  questions.begin_frame(2);
+  request.update_period = 0;
+  questions.ask(request, 4);
+  asked = questions.next(5);
+  REQUIRE(asked);
+  CHECK(asked->host_frame == 4);
+  CHECK_FALSE(questions.next(5));
+  questions.begin_frame(3);
+  CHECK_FALSE(questions.next(5));
 }
 
 TEST_CASE("F11 of any bytes every good message is taken, and every other counted by its reason",
