@@ -71,6 +71,7 @@ class CigiConditions {
   static std::vector<std::string> try_sensor(Changes& changes, const TrySensor& try_to);
   // Behind try_sensor(). What was refused is forgotten, or it would be refused again with all that comes later.
   void settle(const Changes& tried);
+  // As it was asked for last: in force with the next frame, as changes() are.
   const CigiView& view() const { return view_; }
   // Of a sensor whose host asked for its tracker.
   const std::optional<feeds::cigi::SensorResponse>& response() const { return response_; }

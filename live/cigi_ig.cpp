@@ -265,6 +265,7 @@ void CigiIg::come_into_force() {
     const std::lock_guard<std::mutex> lock(mutex_);
     heed_said(*scene);
     changes = conditions_.changes();
+    in_force_ = conditions_.view();
   }
   apply(changes);
 }
@@ -353,9 +354,8 @@ std::vector<std::uint8_t> CigiIg::begin_frame(Clock::time_point now) {
 }
 
 void CigiIg::dress(LiveFrame& frame) const {
-  const auto scene = session_.scene();
   const std::lock_guard<std::mutex> lock(mutex_);
-  show(conditions_.view(), scene->description.sensor, frame);
+  show(in_force_, frame.scene->description.sensor, frame);
 }
 
 void CigiIg::tell(Status& status) const {

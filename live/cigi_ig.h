@@ -35,6 +35,7 @@
 #include "live/cigi_conditions.h"
 #include "live/cigi_entities.h"
 #include "live/cigi_questions.h"
+#include "live/cigi_view.h"
 #include "live/hub.h"
 #include "live/mailbox.h"
 #include "session/session.h"
@@ -82,7 +83,8 @@ class CigiIg {
   // It cannot be opened: the host is told so, and why.
   void refuse_database(std::int8_t number, const std::string& why);
   CigiStation station() const;
-  // What the host wants to see of a frame, before it is shown.
+  // What the host wants to see of a frame, before it is shown: what came into force before the frame began, with
+  // the last begin_frame() or begin_letter(). It has its scene.
   void dress(LiveFrame& frame) const;
   void tell(Status& status) const;
 
@@ -134,6 +136,7 @@ class CigiIg {
   std::deque<Said> said_;        // oldest first
   std::uint64_t letter_, made_;  // the newest whose frame was begun, and made; free-running: any
   CigiConditions conditions_;
+  CigiView in_force_;                         // of the frame that is being made
   std::vector<feeds::cigi::Event> events_{};  // in force, to be told
   std::string host_time_;                     // that it says it is there, ISO 8601
   std::int8_t refused_ = 0;                   // database that cannot be opened; 0: none

@@ -37,6 +37,38 @@ Bytes component(std::uint16_t number, std::uint8_t state, float word = 0.0F, std
       .bytes();
 }
 
+Bytes view_definition(std::uint8_t enables, float near_m, float far_m, float left_deg,
+                      float right_deg, float top_deg, float bottom_deg) {
+  return Packet(21, 32, false)
+      .put<std::uint8_t>(5, enables)
+      .put(8, near_m)
+      .put(12, far_m)
+      .put(16, left_deg)
+      .put(20, right_deg)
+      .put(24, top_deg)
+      .put(28, bottom_deg)
+      .bytes();
+}
+
+// Of one grey, 9, and one watt.
+live::LiveFrame grey_frame(const std::shared_ptr<const scenes::Scene>& scene) {
+  const sensors::Sensor& sensor = scene->description.sensor;
+  const auto cells = static_cast<std::size_t>(sensor.scan.columns * sensor.range.cells);
+  live::LiveFrame frame;
+  frame.scene = scene;
+  frame.bscope = {sensor.scan.columns, sensor.range.cells, std::vector<std::uint8_t>(cells, 9)};
+  frame.cscope = {sensor.scan.columns, sensor.display.cscope_rows, {}};
+  frame.cscope.pixels.assign(
+      static_cast<std::size_t>(sensor.scan.columns * sensor.display.cscope_rows), 9);
+  frame.received_W.assign(cells, 1.0);
+  return frame;
+}
+
+template <class Cells>
+std::ptrdiff_t lit(const Cells& cells) {
+  return std::count_if(cells.begin(), cells.end(), [](auto cell) { return cell != 0; });
+}
+
 // What a host in lockstep sees that asks for something else with each frame: `together` sends all its messages
 // before the first frame, else it waits for each frame.
 std::vector<std::shared_ptr<const live::LiveFrame>> lockstep_frames(bool together) {
@@ -254,36 +286,16 @@ TEST_CASE("A view's near, far and sides blank what lies beyond them", "[cigi]") 
   Station station;
   sensors::Sensor sensor = station.session->scene()->description.sensor;
   const auto frame_now = [&] {
-    live::LiveFrame frame;
-    const auto cells = static_cast<std::size_t>(sensor.scan.columns * sensor.range.cells);
-    frame.bscope = {sensor.scan.columns, sensor.range.cells, std::vector<std::uint8_t>(cells, 9)};
-    frame.cscope = {sensor.scan.columns, sensor.display.cscope_rows, {}};
-    frame.cscope.pixels.assign(
-        static_cast<std::size_t>(sensor.scan.columns * sensor.display.cscope_rows), 9);
-    frame.received_W.assign(cells, 1.0);
+    station.ig.begin_frame();
+    live::LiveFrame frame = grey_frame(station.session->scene());
     station.ig.dress(frame);
     return frame;
-  };
-  const auto lit = [](const auto& cells) {
-    return std::count_if(cells.begin(), cells.end(), [](auto cell) { return cell != 0; });
-  };
-  const auto view = [](std::uint8_t enables, float near_m, float far_m, float left, float right,
-                       float top, float bottom) {
-    return Packet(21, 32, false)
-        .put<std::uint8_t>(5, enables)
-        .put(8, near_m)
-        .put(12, far_m)
-        .put(16, left)
-        .put(20, right)
-        .put(24, top)
-        .put(28, bottom)
-        .bytes();
   };
   CHECK(lit(frame_now().bscope.pixels) == sensor.scan.columns * sensor.range.cells);
   // Ten range cells, from the fifth on.
   const auto near_m = static_cast<float>(sensor.range.minimum_m + 4.0 * sensor.range.cell_m),
              far_m = static_cast<float>(sensor.range.minimum_m + 14.0 * sensor.range.cell_m);
-  station.hear(message(1, {view(1 | 2, near_m, far_m, 1.0F, 1.0F, -1.0F, 1.0F)}));
+  station.hear(message(1, {view_definition(1 | 2, near_m, far_m, 1.0F, 1.0F, -1.0F, 1.0F)}));
   live::LiveFrame frame = frame_now();
   CHECK(lit(frame.bscope.pixels) == 10 * sensor.scan.columns);
   CHECK(lit(frame.received_W) == 10 * sensor.scan.columns);
@@ -295,7 +307,7 @@ TEST_CASE("A view's near, far and sides blank what lies beyond them", "[cigi]") 
   // The right half, and what is above the middle of the C-scope.
   const auto middle_deg = static_cast<float>(
       core::degrees(sensor.display.cscope_top_rad - sensor.display.cscope_span_rad / 2));
-  station.hear(message(2, {view(4 | 32, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, middle_deg)}));
+  station.hear(message(2, {view_definition(4 | 32, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, middle_deg)}));
   frame = frame_now();
   CHECK(lit(frame.bscope.pixels) == sensor.scan.columns / 2 * sensor.range.cells);
   CHECK(frame.bscope.pixels.back() == 9);
@@ -303,11 +315,36 @@ TEST_CASE("A view's near, far and sides blank what lies beyond them", "[cigi]") 
   CHECK(lit(frame.cscope.pixels) == sensor.scan.columns / 2 * (sensor.display.cscope_rows / 2));
   CHECK(frame.cscope.pixels.back() == 0);
   // Black-hot, then off.
-  station.hear(message(
-      3, {view(0, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F), sensor_control(1 | 2, 0.5F, 0.5F, 0.0F)}));
+  station.hear(message(3, {view_definition(0, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F),
+                           sensor_control(1 | 2, 0.5F, 0.5F, 0.0F)}));
   CHECK(frame_now().bscope.pixels.front() == 246);
   station.hear(message(4, {sensor_control(0, 0.5F, 0.5F, 0.0F)}));
   frame = frame_now();
+  CHECK(lit(frame.bscope.pixels) + lit(frame.cscope.pixels) + lit(frame.received_W) == 0);
+}
+
+// The frame that was being made turned black with the levels of before, and was blanked by another tilt's rows.
+TEST_CASE("What is asked for while a frame is made is in force with the next one", "[cigi]") {
+  Station station;
+  const sensors::Sensor own = station.session->scene()->description.sensor;
+  const auto middle_deg = static_cast<float>(
+      core::degrees(own.display.cscope_top_rad - own.display.cscope_span_rad / 2));
+  station.hear(message(1, {view_definition(32, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, middle_deg)}));
+  station.ig.begin_frame();
+  live::LiveFrame frame = grey_frame(station.session->scene());
+  station.hear(message(2, {view_definition(0, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F),
+                           sensor_control(2, 0.5F, 0.5F, 0.0F)}));
+  // Over HTTP.
+  session::SensorSettings tilted;
+  tilted.boresight_elevation_rad = own.antenna.boresight_elevation_rad + core::radians(2.0);
+  station.session->set(tilted);
+  station.ig.dress(frame);
+  CHECK(lit(frame.bscope.pixels) == own.scan.columns * own.range.cells);
+  CHECK(frame.bscope.pixels.front() == 9);
+  CHECK(lit(frame.cscope.pixels) == own.scan.columns * (own.display.cscope_rows / 2));
+  station.ig.begin_frame();
+  frame = grey_frame(station.session->scene());
+  station.ig.dress(frame);
   CHECK(lit(frame.bscope.pixels) + lit(frame.cscope.pixels) + lit(frame.received_W) == 0);
 }
 
