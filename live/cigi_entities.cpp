@@ -54,6 +54,7 @@ CigiEntities::Placed CigiEntities::place(const cigi::EntityControl& packet, doub
         frame.to_local_m(now.pose.position) - frame.to_local_m(before->second.pose.position);
     if (apart_s > 0.0 && apart_s < kMostApart_s && glm::length(moved_m) < kFastest_mps * apart_s)
       now.pose.v_N_mps = moved_m / apart_s * frame.north_east_down_at(now.pose.position);
+    now.told = before->second.told;
   }
   entities_[packet.entity] = now;
   return Placed::yes;
@@ -61,15 +62,15 @@ CigiEntities::Placed CigiEntities::place(const cigi::EntityControl& packet, doub
 
 void CigiEntities::move(const cigi::RateControl& packet) {
   const auto known = entities_.find(packet.entity);
-  if (packet.of_part || known == entities_.end()) return;
-  known->second.v_N_mps = packet.body_axes ? known->second.pose.q_NB * packet.v_mps : packet.v_mps;
+  if (!packet.of_part && known != entities_.end()) known->second.told = packet;
 }
 
 std::optional<core::Pose> CigiEntities::pose(std::uint16_t entity) const {
   const auto known = entities_.find(entity);
   if (known == entities_.end()) return std::nullopt;
   core::Pose pose = known->second.pose;
-  if (known->second.v_N_mps) pose.v_N_mps = *known->second.v_N_mps;
+  if (const auto& told = known->second.told)
+    pose.v_N_mps = told->body_axes ? pose.q_NB * told->v_mps : told->v_mps;
   return pose;
 }
 

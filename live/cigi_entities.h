@@ -24,7 +24,8 @@ class CigiEntities {
   // within a second and below 2 km/s.
   Placed place(const feeds::cigi::EntityControl& packet, double time_s,
                const terrain::LocalFrame& frame);
-  // The velocity that the host tells counts.
+  // The velocity that the host tells counts from then on, until it tells another one or the entity is forgotten:
+  // one in body axes turns with it. Of an entity that is not known it is left out.
   void move(const feeds::cigi::RateControl& packet);
   void clear() { entities_.clear(); }
 
@@ -37,7 +38,7 @@ class CigiEntities {
   struct Entity {
     core::Pose pose;
     double time_s = 0.0;
-    std::optional<glm::dvec3> v_N_mps;  // told
+    std::optional<feeds::cigi::RateControl> told{};
   };
 
   core::VerticalDatum datum_;

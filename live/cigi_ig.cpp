@@ -136,6 +136,9 @@ void CigiIg::heed(const Heard& heard) {
   const double time_s = clock_s.value_or(seconds_between(station_.begin, heard.arrived));
   const auto scene = session_.scene();
   for (const cigi::HostPacket& packet : message.packets) take(packet, time_s, scene->frame, said);
+  // Also where it stands before the Entity Control that makes its entity known.
+  for (const cigi::HostPacket& packet : message.packets)
+    if (const auto* const rate = std::get_if<cigi::RateControl>(&packet)) entities_.move(*rate);
   if (said.reset || !said.packets.empty()) said_.push_back(std::move(said));
   heed_said(*scene);
   if (station_.control.mode != cigi::Mode::operate ||
@@ -171,7 +174,7 @@ void CigiIg::take(const cigi::HostPacket& packet, double time_s, const terrain::
                   Said& said) {
   std::visit(Overloaded{
                  [&](const cigi::EntityControl& one) { place(one, time_s, frame); },
-                 [&](const cigi::RateControl& one) { entities_.move(one); },
+                 [](const cigi::RateControl&) {},  // behind the others
                  [&](const cigi::ViewControl& one) { view_ = one; },
                  [&](const cigi::CelestialControl& one) { count_unless(set(one), 9); },
                  [&](const cigi::HeightRequest& one) { questions_.ask(one, said.host_frame); },

@@ -3,9 +3,10 @@
 // frames on the channel's.
 //
 // Pose: entity 0, or the entity that the last View Control names, with that packet's offset and
-// angles. Velocity is that of Rate Control, else what the last two places were apart, over the host's
-// timestamps where it has them. Only in mode operate; standby lets the picture stand, and going there
-// forgets what the host said: entities, questions, weather, ground, sensor and view are the scene's own.
+// angles. Velocity is that of the last Rate Control, wherever it stood in its message, else what the last two
+// places were apart, over the host's timestamps where it has them. Only in mode operate; standby lets the picture
+// stand, and going there forgets what the host said: entities, questions, weather, ground, sensor and view are the
+// scene's own.
 // Date and time of its world go into the status; the radar sees no sun.
 // Weather, ground, sensor and view: live/cigi_conditions.h. In force with the next frame; in lockstep with
 // that of their own message, whatever has come behind it.

@@ -73,6 +73,41 @@ TEST_CASE("Velocity is told, or what places are apart", "[cigi]") {
   CHECK(pose.v_N_mps.z == Approx(70.0 * std::sin(core::radians(2.0))));
 }
 
+// The next Entity Control forgot it, one of the same message too.
+TEST_CASE("A velocity that is told stays until another one or the end of its entity", "[cigi]") {
+  Station station;
+  std::uint32_t frame = 0;
+  const auto velocity_after_mps = [&](const std::vector<Bytes>& packets) {
+    station.hear(message(++frame, packets));
+    return station.pose().v_N_mps;
+  };
+  const auto north_mps = [](float speed_mps) {
+    return Packet(8, 32, false).put(8, speed_mps).bytes();
+  };
+  const auto at = [](int step, float heading_deg = 90.0F) {
+    return entity(52.0 + 1e-5 * step, 10.0, 300.0, heading_deg);
+  };
+  // Places are 1.1 m apart, in 60 ms. Before the entity is known, without a packet, before and behind its place.
+  CHECK(velocity_after_mps({north_mps(70.0F), at(0)}) == glm::dvec3(70.0, 0.0, 0.0));
+  CHECK(velocity_after_mps({at(1)}) == glm::dvec3(70.0, 0.0, 0.0));
+  CHECK(velocity_after_mps({north_mps(80.0F), at(2)}) == glm::dvec3(80.0, 0.0, 0.0));
+  CHECK(velocity_after_mps({at(3), north_mps(0.0F)}) == glm::dvec3(0.0));
+  CHECK(velocity_after_mps({at(4)}) == glm::dvec3(0.0));
+  // Along the nose, which turns from east to south.
+  const Bytes ahead = Packet(8, 32, false).put<std::uint8_t>(5, 2).put(8, 70.0F).bytes();
+  CHECK(velocity_after_mps({at(5), ahead}).y == Approx(70.0 * std::cos(core::radians(2.0))));
+  CHECK(velocity_after_mps({at(6, 180.0F)}).x == Approx(-70.0 * std::cos(core::radians(2.0))));
+  // One that is removed is another one when it comes back, as all are behind a reset.
+  Bytes removed = at(6);
+  removed[4] = 2;
+  for (const bool reset : {false, true}) {
+    station.hear(reset ? message(++frame, {}, kStandby) : message(++frame, {removed}));
+    CHECK(velocity_after_mps({at(7)}) == glm::dvec3(0.0));
+    CHECK(velocity_after_mps({at(8)}).x == Approx(18.5).epsilon(0.01));
+    CHECK(velocity_after_mps({at(8), ahead}).y > 69.0);
+  }
+}
+
 TEST_CASE("Each frame begins with its number, the host's and the mode", "[cigi]") {
   Station station;
   station.hear(message(77, {}, kStandby));
