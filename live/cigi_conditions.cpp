@@ -213,9 +213,10 @@ bool CigiConditions::take(const cigi::ComponentControl& packet, std::uint32_t ho
     return false;
   }
   changes_.sensor = sensor_;
-  constexpr std::size_t kMostEvents = 16;  // a frame
-  if (changes_.events.size() < kMostEvents)
-    changes_.events.push_back({packet.component, {packet.instance, packet.state, host_frame}});
+  // What another one takes back before it was in force is not told; so there is one of each component at most.
+  std::erase_if(changes_.events,
+                [&](const cigi::Event& event) { return event.event == packet.component; });
+  changes_.events.push_back({packet.component, {packet.instance, packet.state, host_frame}});
   return true;
 }
 

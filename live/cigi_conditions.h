@@ -11,8 +11,9 @@
 // "seed" has no levels to set. Noise n multiplies the noise figure by 10^(2 n): 0 to 20 dB.
 // Components of class sensor (3): 1 tilt, state 1 with the angle in degrees as a float in the first
 // word, state 0 the scene's own; 2 stabilisation, state 1 on and 0 off; 3 the C-scope's heights,
-// state 0 true elevation, 1 flat earth, 2 shadow. Event Notification tells each that is in force: the
-// component as event, its instance, state and the host's frame as data.
+// state 0 true elevation, 1 flat earth, 2 shadow. Event Notification tells each that is in force, of
+// several of one component between two frames the last: the component as event, its instance, state and the host's
+// frame as data.
 #pragma once
 
 #include <functional>

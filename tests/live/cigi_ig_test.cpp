@@ -479,7 +479,7 @@ TEST_CASE("F15 questions beyond a datagram wait, beyond a thousand they are coun
 
 // Those of low numbers were answered in every frame, most others never again.
 TEST_CASE(
-    "F15 questions with a period beyond a datagram are answered by turns, single ones at once",
+    "F15 questions with a period beyond a datagram are answered by turns and single ones at once",
     "[cigi]") {
   Station station;
   std::vector<Bytes> questions;

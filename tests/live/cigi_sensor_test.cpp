@@ -1,5 +1,6 @@
 // What a CIGI host says of sensor, view, switches and time. TShark reads whole sessions (cigi_test.py).
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 
 #include "core/files.h"
@@ -280,6 +281,30 @@ TEST_CASE("Switches of the radar are told in an event once they are in force", "
   const Bytes brief = Packet(5, 16, false).put<std::uint16_t>(2, 9).put<std::uint8_t>(6, 3).bytes();
   station.hear(message(22, {brief}));
   CHECK(station.told().unused_packets.back().first == "short_component_control (5)");
+}
+
+// Those beyond the sixteenth between two frames were in force, and not told.
+TEST_CASE("However many switches come between two frames the state in force is told of each",
+          "[cigi]") {
+  Station station;
+  for (std::uint32_t frame = 1; frame <= 20; ++frame) {
+    const bool odd = frame % 2 == 1;
+    station.hear(message(frame, {component(1, 1, -0.1F * static_cast<float>(frame)),
+                                 component(2, odd ? 1 : 0), component(3, odd ? 1 : 2)}));
+  }
+  const auto packets = packets_in(station.ig.begin_frame());
+  const sensors::Sensor now = station.session->scene()->description.sensor;
+  CHECK(core::degrees(now.antenna.boresight_elevation_rad) == Approx(-2.0));
+  CHECK_FALSE(now.scan.stabilised);
+  CHECK(now.display.cscope_mode == sensors::Display::CScopeMode::shadow);
+  REQUIRE(packets.size() == 4);
+  const std::array<std::uint32_t, 3> states{1, 0, 2};
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(packets[i + 1].first == 116);
+    CHECK(packets[i + 1].second.at<std::uint16_t>(2) == i + 1);
+    CHECK(packets[i + 1].second.at<std::uint32_t>(8) == states.at(i));
+    CHECK(packets[i + 1].second.at<std::uint32_t>(12) == 20);
+  }
 }
 
 TEST_CASE("A view's near, far and sides blank what lies beyond them", "[cigi]") {
