@@ -115,13 +115,14 @@ class Lines {
 }  // namespace
 
 Recording read_recording(const std::filesystem::path& file) {
-  constexpr const char *kReadable = "a file that can be read", *kNot = "cannot be read";
+  constexpr const char* kReadable = "a file that can be read";
+  constexpr const char* kUnreadable = "cannot be read";
   std::ifstream stream(file, std::ios::binary);
   std::error_code error;
   const std::uint64_t size = std::filesystem::file_size(file, error);
   if (!stream || error)
     core::throw_input_error(core::ErrorClass::io, core::Place{file.string()}, "--replay",
-                            error ? error.message() : kNot, kReadable);
+                            error ? error.message() : kUnreadable, kReadable);
   if (size > kMost_bytes)
     core::throw_input_error(core::ErrorClass::limit, core::Place{file.string()}, "--replay",
                             fmt::format("{} bytes", size), "at most 2 GiB");
@@ -137,7 +138,7 @@ Recording read_recording(const std::filesystem::path& file) {
     if (problems.all().size() >= kMostProblems) break;
   }
   if (stream.bad())
-    problems.error(core::ErrorClass::io, {file.string()}, "--replay", kNot, kReadable);
+    problems.error(core::ErrorClass::io, {file.string()}, "--replay", kUnreadable, kReadable);
   if (recording.flown_by.from.empty() && problems.all().empty())
     problems.error(core::ErrorClass::parse, {file.string()}, "", "empty",
                    "what fanbeam live --record writes");
