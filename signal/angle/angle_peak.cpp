@@ -93,28 +93,9 @@ double angle_of_step(int step, int steps, double widest = 1.0) {
   return std::asin(std::clamp(widest * (2.0 * step / steps - 1.0), -1.0, 1.0));
 }
 
-}  // namespace
-
-AnglePeak direction_peak(const Snapshot& snapshot, const std::vector<glm::dvec3>& elements_m,
-                         double wavelength_m) {
-  const Beamformer beam{snapshot, elements_m, wavelength_m};
-  check_input(beam);
-  const int rows = beam.vertical_steps();
-  if (rows == 0) return azimuth_peak(snapshot, elements_m, wavelength_m);
-  const int steps = beam.is_vertical() ? 0 : beam.scan_steps();
-  AnglePeak peak;
-  peak.power = -1.0;
-  for (int row = 0; row <= rows; ++row)
-    for (int step = 0; step <= steps; ++step) {
-      const double azimuth_rad = angle_of_step(step, steps);
-      const double elevation_rad = angle_of_step(row, rows);
-      // Straight up and down all azimuths are one.
-      if ((row == 0 || row == rows) && step > 0) continue;
-      const double power = beam.power(azimuth_rad, elevation_rad);
-      if (power > peak.power) peak = {azimuth_rad, elevation_rad, power};
-    }
-  const double reach_rad = steps == 0 ? 0.0 : 2.0 * core::kPi / steps;
-  const double rise_rad = 2.0 * core::kPi / rows;
+// From a step of the scan: `reach_rad` to either side and `rise_rad` up and down hold its maximum.
+AnglePeak climbed_direction(const Beamformer& beam, AnglePeak peak, double reach_rad,
+                            double rise_rad) {
   const auto near = [](double centre, double reach) {
     return std::pair(std::max(-0.5 * core::kPi, centre - reach),
                      std::min(0.5 * core::kPi, centre + reach));
@@ -139,6 +120,47 @@ AnglePeak direction_peak(const Snapshot& snapshot, const std::vector<glm::dvec3>
   return peak;
 }
 
+// Half a wavelength apart, elements see both ends of a scan alike: a maximum beside one of them may be
+// found at the other, from which nothing climbs to it. Of equal maxima the first stays.
+void take_if_stronger(AnglePeak& peak, const AnglePeak& from_other_end) {
+  constexpr double kRounding = 1e-9;
+  if (from_other_end.power > (1.0 + kRounding) * peak.power) peak = from_other_end;
+}
+
+}  // namespace
+
+AnglePeak direction_peak(const Snapshot& snapshot, const std::vector<glm::dvec3>& elements_m,
+                         double wavelength_m) {
+  const Beamformer beam{snapshot, elements_m, wavelength_m};
+  check_input(beam);
+  const int rows = beam.vertical_steps();
+  if (rows == 0) return azimuth_peak(snapshot, elements_m, wavelength_m);
+  const int steps = beam.is_vertical() ? 0 : beam.scan_steps();
+  AnglePeak peak;
+  peak.power = -1.0;
+  for (int row = 0; row <= rows; ++row)
+    for (int step = 0; step <= steps; ++step) {
+      const double azimuth_rad = angle_of_step(step, steps);
+      const double elevation_rad = angle_of_step(row, rows);
+      // Straight up and down all azimuths are one.
+      if ((row == 0 || row == rows) && step > 0) continue;
+      const double power = beam.power(azimuth_rad, elevation_rad);
+      if (power > peak.power) peak = {azimuth_rad, elevation_rad, power};
+    }
+  const double reach_rad = steps == 0 ? 0.0 : 2.0 * core::kPi / steps;
+  const double rise_rad = 2.0 * core::kPi / rows;
+  const auto climb = [&](double azimuth_rad, double elevation_rad) {
+    return climbed_direction(beam, {azimuth_rad, elevation_rad}, reach_rad, rise_rad);
+  };
+  const AnglePeak found = peak;
+  const bool at_side = steps > 0 && std::abs(found.azimuth_rad) == angle_of_step(steps, steps);
+  const bool at_height = std::abs(found.elevation_rad) == angle_of_step(rows, rows);
+  peak = climb(found.azimuth_rad, found.elevation_rad);
+  if (at_side) take_if_stronger(peak, climb(-found.azimuth_rad, found.elevation_rad));
+  if (at_height) take_if_stronger(peak, climb(found.azimuth_rad, -found.elevation_rad));
+  return peak;
+}
+
 AnglePeak azimuth_peak(const Snapshot& snapshot, const std::vector<glm::dvec3>& elements_m,
                        double wavelength_m, double elevation_rad) {
   const Beamformer beam{snapshot, elements_m, wavelength_m};
@@ -157,16 +179,21 @@ AnglePeak azimuth_peak(const Snapshot& snapshot, const std::vector<glm::dvec3>& 
       best = step;
     }
   }
-  AnglePeak peak;
-  peak.elevation_rad = elevation_rad;
-  peak.azimuth_rad =
-      climbed([&](double azimuth_rad) { return beam.power(azimuth_rad, elevation_rad); },
-              angle_rad(best - 1), angle_rad(best + 1));
-  // A peak beside one end is climbed from the other, which looks the same.
-  const double sine = std::sin(peak.azimuth_rad);
-  if (std::abs(sine) > widest)
-    peak.azimuth_rad = std::asin(sine - std::copysign(2.0 * widest, sine));
-  peak.power = beam.power(peak.azimuth_rad, elevation_rad);
+  const auto climb = [&](int step) {
+    AnglePeak peak;
+    peak.elevation_rad = elevation_rad;
+    peak.azimuth_rad =
+        climbed([&](double azimuth_rad) { return beam.power(azimuth_rad, elevation_rad); },
+                angle_rad(step - 1), angle_rad(step + 1));
+    // A peak beside one end is climbed from the other, which looks the same.
+    const double sine = std::sin(peak.azimuth_rad);
+    if (std::abs(sine) > widest)
+      peak.azimuth_rad = std::asin(sine - std::copysign(2.0 * widest, sine));
+    peak.power = beam.power(peak.azimuth_rad, elevation_rad);
+    return peak;
+  };
+  AnglePeak peak = climb(best);
+  if (best == 0 || best == steps) take_if_stronger(peak, climb(steps - best));
   return peak;
 }
 

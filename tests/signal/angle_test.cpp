@@ -133,6 +133,47 @@ TEST_CASE("an array with elements at several heights tells elevations apart", "[
   CHECK(std::norm(beams.at(0 * 2 + 0, 0, 0)) < 0.9F);
 }
 
+// At half a wavelength both ends of the scan look the same: -90 deg was told of a wave from 62 deg on (two elements).
+TEST_CASE("a wave far to the side is found on its side by any line at half a wavelength",
+          "[angle]") {
+  for (const int count : {2, 3, 4, 8, 12})
+    for (double azimuth_deg = 50.0; azimuth_deg < 90.0; azimuth_deg += 1.5)
+      for (const double side : {-1.0, 1.0}) {
+        const Array line = half_wave_line(1, count);
+        const double azimuth_rad = radians(side * azimuth_deg);
+        INFO(count << " elements, " << degrees(azimuth_rad) << " deg");
+        const auto elements_m = virtual_elements_m(line);
+        for (const auto& peak :
+             {azimuth_peak(plane_wave(line, azimuth_rad), elements_m, kWavelength_m),
+              direction_peak(plane_wave(line, azimuth_rad), elements_m, kWavelength_m)}) {
+          CHECK(peak.azimuth_rad == Approx(azimuth_rad).margin(1e-5).epsilon(0.0));
+          CHECK(peak.power == Approx(1.0).epsilon(1e-9));
+        }
+      }
+}
+
+TEST_CASE("waves far to the side and far up are found there by planes at half a wavelength",
+          "[angle]") {
+  Array plane = half_wave_line(1, 4), column;
+  plane.transmitters_m = column.receivers_m = {glm::dvec3(0.0)};
+  for (int i = 1; i < 4; ++i) {
+    plane.transmitters_m.emplace_back(0.0, 0.0, 0.5 * kWavelength_m * i);
+    column.receivers_m.emplace_back(0.0, 0.0, 0.5 * kWavelength_m * i);
+  }
+  const auto found = [](const Array& array, double azimuth_rad, double elevation_rad) {
+    return direction_peak(plane_wave(array, azimuth_rad, elevation_rad), virtual_elements_m(array),
+                          kWavelength_m);
+  };
+  for (const double far_deg : {-86.0, -78.0, 76.0, 80.0, 85.0}) {
+    INFO(far_deg << " deg");
+    const AnglePeak beside = found(plane, radians(far_deg), radians(3.0));
+    CHECK(degrees(beside.azimuth_rad) == Approx(far_deg).margin(1e-3).epsilon(0.0));
+    CHECK(degrees(beside.elevation_rad) == Approx(3.0).margin(1e-3).epsilon(0.0));
+    const AnglePeak above = found(column, 0.0, radians(far_deg));
+    CHECK(degrees(above.elevation_rad) == Approx(far_deg).margin(1e-3).epsilon(0.0));
+  }
+}
+
 TEST_CASE("elements far apart tell the direction nearest to boresight, as the cube's cells do",
           "[angle]") {
   for (const double pitch : {0.6, 1.0, 2.0}) {
