@@ -157,6 +157,8 @@ double on_plane_mps(double radial_speed_mps, double elevation_rad) {
   return radial_speed_mps / least_cosine(elevation_rad);
 }
 
+bool tells_azimuth(const FmcwRadar& radar) { return spread_of(radar.array, 1) > 0.0; }
+
 bool tells_elevation(const FmcwRadar& radar) { return spread_of(radar.array, 2) > 0.0; }
 
 std::vector<RadarMeasurement> measurements_of(const DetectedFrame& frame, const FmcwRadar* radar,

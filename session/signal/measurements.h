@@ -40,6 +40,8 @@ inline constexpr double kLongestObject_m = 8.0;  // a car or a van; lorries may 
 // On the plane, of a slant range and a radial speed.
 double on_plane_m(double range_m, double elevation_rad);
 double on_plane_mps(double radial_speed_mps, double elevation_rad);
+// Whether the elements stand beside each other; others see everything at azimuth 0.
+bool tells_azimuth(const FmcwRadar& radar);
 // Whether the elements stand at several heights; others see everything at elevation 0.
 bool tells_elevation(const FmcwRadar& radar);
 

@@ -65,6 +65,26 @@ TEST_CASE("A street is followed from its scene, its detections and its samples a
   CHECK(samples["moving_tracks"] == record["moving_tracks"]);
 }
 
+// An azimuth known to a radian started no track: none was followed, without a word.
+TEST_CASE("A radar of one element follows a street along the line of sight", "[track]") {
+  const tests::TemporaryFolder folder;
+  const fs::path radar = folder.path() / "radar.toml", out = folder.path() / "tracks";
+  std::ofstream(radar) << "[array]\ntransmitters = 1\nreceivers = 1\n";
+  const auto result = tests::run_fanbeam("track street-76ghz -q --plots --frames 0:6 --radar " +
+                                         tests::quoted(radar) + " -o " + tests::quoted(out));
+  INFO(result.output);
+  REQUIRE(result.exit_code == 0);
+  const nlohmann::json record = tests::json_of(out / "run.json");
+  CHECK(record["range_only"] == true);
+  for (const char* name : {"car ahead", "oncoming car", "cyclist", "pedestrian, body"}) {
+    INFO(name);
+    CHECK(least_followed(record, name) >= 3);
+  }
+  CHECK(record["moving_tracks"] >= 3);
+  CHECK(fs::exists(out / "ranges.png"));
+  CHECK_FALSE(fs::exists(out / "plan.png"));
+}
+
 TEST_CASE("Recorded cubes of another layout give the same tracks", "[track]") {
   const tests::TemporaryFolder folder;
   const fs::path made = folder.path() / "street", out = folder.path();

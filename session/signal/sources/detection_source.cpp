@@ -25,7 +25,7 @@ class DetectionSource : public MeasuredSource {
     problems.append(found.all());
     problems.throw_if_errors();
     warnings = problems.all();
-    if (radar_) resolution = resolution_of(*radar_);
+    if (radar_) set_radar(*radar_);
     name = core::safe_word(fs::absolute(path).lexically_normal().stem().string());
     kind = "detections";
     std::vector<double> times_s;

@@ -50,7 +50,14 @@ class MeasuredSource {
   RadarVelocity_mps radar_velocity_mps{};  // at the first frame
   double frame_s = kFramePeriod_s, most_range_m = 1e6;
   std::optional<tracking::Resolution> resolution{};  // where the radar is known
+  bool tells_azimuth = true;                         // else all lies along the line of sight
   std::vector<core::Problem> warnings{};             // of the scene, of times, and of folding, once
+
+ protected:
+  void set_radar(const FmcwRadar& radar) {
+    resolution = resolution_of(radar);
+    tells_azimuth = session::tells_azimuth(radar);
+  }
 };
 
 struct SourceSettings {

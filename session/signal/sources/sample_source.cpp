@@ -122,7 +122,7 @@ class SampleSource : public MeasuredSource {
     }
     radar_velocity_mps = velocity_at(0);
     most_range_m = radar_.axes.range_step_m * radar_.detection.transform.kept_range_cells;
-    resolution = resolution_of(radar_);
+    set_radar(radar_);
   }
   int frames() const override { return files_.frames(); }
 

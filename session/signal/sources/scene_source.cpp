@@ -35,7 +35,7 @@ class SceneSource : public MeasuredSource {
     const int step = indices_.size() > 1 ? indices_[1] - indices_[0] : 1;
     frame_s = step / sensor.scan.frame_rate_Hz;
     most_range_m = sensor.range.maximum_m();
-    resolution = resolution_of(radar_);
+    set_radar(radar_);
     radar_velocity_mps = velocity_at(indices_.front());
   }
   int frames() const override { return static_cast<int>(indices_.size()); }

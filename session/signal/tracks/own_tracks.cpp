@@ -26,6 +26,7 @@ tracking::TrackerSettings own_tracker(const TrackSettings& settings, const Measu
   radar.frame_s = source.frame_s;
   radar.most_range_m = source.most_range_m;
   radar.most_azimuth_rad = core::kPi;
+  if (!source.tells_azimuth) radar.array_elements = 1;
   tracking::TrackerSettings tracker = tracking::road_tracker(
       radar, source.radar_velocity_mps[0], settings.acceleration_mps2, settings.coast_s);
   for (tracking::MotionModel& model : tracker.motion.motions)
@@ -41,8 +42,8 @@ constexpr double kNear_m = 4.0, kNear_mps = 2.0;
 bool follows(const tracking::Track& track, const SeenTarget& target) {
   if (!track.confirmed) return false;
   const tracking::PolarPlace place = polar(track.state);
-  const double across_m =
-      2.0 * std::sin(0.5 * (place.azimuth_rad - target.azimuth_rad)) * target.range_m;
+  const double turn_rad = track.state.axes == 1 ? 0.0 : place.azimuth_rad - target.azimuth_rad;
+  const double across_m = 2.0 * std::sin(0.5 * turn_rad) * target.range_m;
   return std::hypot(place.range_m - target.range_m, across_m) < kNear_m &&
          std::abs(place.range_rate_mps - target.range_rate_mps) < kNear_mps;
 }
@@ -88,6 +89,7 @@ Json json_of(const TrackSettings& settings, const MeasuredSource& source, const 
                 std::copysign(std::hypot(velocity_mps[0], velocity_mps[1]), velocity_mps[0])},
                {"radar_velocity_mps", velocity_mps},
                {"frame_s", source.frame_s},
+               {"range_only", !source.tells_azimuth},
                {"association", settings.association},
                {"acceleration_mps2", settings.acceleration_mps2},
                {"coast_s", settings.coast_s},
@@ -161,7 +163,7 @@ void write_own_tracks(const OwnTracks& tracks, const MeasuredSource& source,
   core::write_file_atomically(folder / "timing.json", timing.dump(2) + "\n");
   if (!draw || tracks.measured == 0) return;
   plots.draw(tracks.history.ranges(source.name), "ranges");
-  plots.draw(tracks.history.plan(source.name), "plan");
+  if (source.tells_azimuth) plots.draw(tracks.history.plan(source.name), "plan");
   write_record();  // lists no plot before it is there
 }
 

@@ -40,7 +40,7 @@ struct OwnTracks {
 OwnTracks track_source(MeasuredSource& source, const TrackSettings& settings,
                        const std::function<void(int done)>& progress);
 
-// tracks.csv, measurements.csv, run.json, timing.json and, to `draw`, ranges and plan as SVG and PNG. Those that an
+// tracks.csv, measurements.csv, run.json, timing.json and, to `draw`, ranges and, where the radar tells azimuths, plan as SVG and PNG. Those that an
 // earlier run.json there lists go.
 void write_own_tracks(const OwnTracks& tracks, const MeasuredSource& source,
                       const TrackSettings& settings, const BodyErrors& errors, bool draw,
