@@ -13,6 +13,8 @@
 
 namespace fanbeam::tracking {
 
+inline constexpr double kLeastSignalToNoise = 31.622776601683793;  // 15 dB
+
 struct MeasurementBound {
   double signal_to_noise = 0.0;
   double range_sigma_m = 0.0, range_rate_sigma_mps = 0.0, azimuth_sigma_rad = 0.0;

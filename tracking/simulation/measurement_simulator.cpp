@@ -31,6 +31,7 @@ std::vector<Seen> seen_targets(const core::HighwayScenario& scenario,
       continue;
     const MeasurementBound bound =
         measurement_bound(radar, section_m2, truth.range_m, truth.azimuth_rad);
+    if (bound.signal_to_noise < kLeastSignalToNoise) continue;
     result.push_back({truth.range_m, truth.range_rate_mps,
                       truth.azimuth_rad + bound.azimuth_sigma_rad * draws.normal(i, 0)[0],
                       bound.signal_to_noise, bound});

@@ -18,7 +18,7 @@
 // Schemes: one triangle with all pairs, or with pairs in the order of range, two slopes, two
 // stages, and a coded stretch between the ramps of one triangle, both refined as of
 // signal/pairing/ghost_free.h. The azimuth of a pair is the mean of those of its two beats, and
-// means nothing for an array of one element. Ranges belong to the turnaround of the
+// means nothing for an array of one element. A target below 15 dB, where the bounds end, is not seen. Ranges belong to the turnaround of the
 // (first) triangle, which is the time of the frame. A target is seen with `detection_probability`;
 // false measurements are Poisson, uniform in range, speed and azimuth.
 // Fluctuation: cases 1 and 2 anew in every frame, chi-square of 2 degrees, 3 and 4 of 4.
@@ -28,7 +28,7 @@
 // Source: rates of misses and ghosts as in tests/signal/pairing_rates_test.cpp; bounds as in
 // measurement_bound.h.
 // Neglected: side lobes and masking (all targets in view are detected alike), side lobes of the
-// array, the ambiguity of the code beyond 214 m, thresholds below 15 dB.
+// array, the ambiguity of the code beyond 214 m, that near 15 dB a target is seen at times.
 // Every draw is a function of seed, run, frame and target.
 #pragma once
 
