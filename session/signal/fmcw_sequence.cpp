@@ -97,19 +97,21 @@ class FmcwRun {
   }
 
   void write_records() {
-    std::set<std::string> files;
-    for (const FmcwFrameRecord& frame : records_)
-      files.insert(frame.files.begin(), frame.files.end());
+    std::set<std::string> of_all_frames;
     if (spectrogram_)
-      files.merge(write_spectrogram(output_.path(), *spectrogram_, scene_.description.name,
-                                    settings_.radar.dynamic_range_dB));
+      of_all_frames = write_spectrogram(output_.path(), *spectrogram_, scene_.description.name,
+                                        settings_.radar.dynamic_range_dB);
     if (runs_chain_) {
-      files.insert(kRadarFile);
+      of_all_frames.insert(kRadarFile);
       core::write_file_atomically(output_.path() / kRadarFile, resolved_radar_toml());
     }
+    std::set<std::string> files = of_all_frames;
+    for (const FmcwFrameRecord& frame : records_)
+      files.insert(frame.files.begin(), frame.files.end());
     output_.keep_only(files);
-    core::write_file_atomically(output_.path() / "run.json",
-                                fmcw_run_json(scene_, settings_.radar, radar_, records_));
+    core::write_file_atomically(
+        output_.path() / "run.json",
+        fmcw_run_json(scene_, settings_.radar, radar_, records_, of_all_frames));
     core::write_file_atomically(
         output_.path() / "timing.json",
         fmcw_timing_json(core::ThreadLimit::threads(), scene_.build_s, records_));

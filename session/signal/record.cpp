@@ -7,7 +7,6 @@
 #include "core/machine.h"
 #include "renderer/plan/effect_catalogue.h"
 #include "sensors/receiver/point_response.h"
-#include "session/records/output_folder.h"
 #include "session/records/record_json.h"
 #include "session/signal/receive.h"
 #include "session/signal/signal_bscope.h"
@@ -110,7 +109,8 @@ Json frame_json(const FmcwFrameRecord& frame) {
     return {{"index", frame.index},
             {"time_s", frame.time_s},
             {"events", frame.events},
-            {"bscope", scan_json(*frame.scan)}};
+            {"bscope", scan_json(*frame.scan)},
+            {"files", frame.files}};
   Json targets = Json::array(), warnings = Json::array();
   for (const FmcwTruth& truth : frame.targets)
     targets.push_back({{"name", truth.name},
@@ -181,7 +181,8 @@ FmcwFrameRecord fmcw_record(const scenes::Scene& scene, int index, const FmcwPat
 }
 
 std::string fmcw_run_json(const scenes::Scene& scene, const FmcwSettings& options,
-                          const FmcwRadar& radar, const std::vector<FmcwFrameRecord>& frames) {
+                          const FmcwRadar& radar, const std::vector<FmcwFrameRecord>& frames,
+                          const std::set<std::string>& files) {
   Json json = {{"version", version_text()},
                {"commit", commit_text()},
                {"scene", scene.description.name},
@@ -196,8 +197,8 @@ std::string fmcw_run_json(const scenes::Scene& scene, const FmcwSettings& option
     json["phase_noise"] = {{"offsets_Hz", options.phase_noise.offsets_Hz},
                            {"dBc_per_Hz", options.phase_noise.levels_dBc_per_Hz}};
   if (const auto limit = core::instruction_limit()) json["isa"] = core::short_name_of(*limit);
+  if (!files.empty()) json["files"] = files;
   if (!radar.waveform.segments.empty()) {  // the chain ran
-    json["files"] = {kRadarFile};
     json["waveform"] = named_waveform_json(radar);
     json["array"] = array_json(radar);
   }

@@ -58,8 +58,10 @@ struct FmcwFrameRecord {
 FmcwFrameRecord fmcw_record(const scenes::Scene& scene, int index, const FmcwPaths& paths,
                             const FmcwFrame& frame);
 
+// `files`: of all frames together. What is listed nowhere counts as somebody's (output_folder.h).
 std::string fmcw_run_json(const scenes::Scene& scene, const FmcwSettings& options,
-                          const FmcwRadar& radar, const std::vector<FmcwFrameRecord>& frames);
+                          const FmcwRadar& radar, const std::vector<FmcwFrameRecord>& frames,
+                          const std::set<std::string>& files);
 std::string fmcw_timing_json(int threads, double scene_build_s,
                              const std::vector<FmcwFrameRecord>& frames);
 

@@ -247,6 +247,38 @@ TEST_CASE("fmcw replaces what its record lists and refuses other files", "[fmcw]
   CHECK(bytes_of(out / "notes.txt") == "mine");
 }
 
+// Their files were listed nowhere: the same command was refused the second time, as if they were somebody's.
+TEST_CASE("fmcw lists and replaces a lone B-scope and a spectrogram", "[fmcw][scan]") {
+  const TemporaryFolder folder;
+  folder.write("few.toml", narrow_sensor(1));
+  const fs::path out = folder.path() / "out";
+  const auto fmcw = [&](const std::string& words) {
+    const Result result = run_fanbeam("fmcw " + words + " -q -o " + quoted(out));
+    INFO(result.output);
+    REQUIRE(result.exit_code == 0);
+    CHECK(files_told(out) == files_in(out));
+  };
+  const std::string bscope = "braunschweig-26 --products bscope --looks 1 --sensor " +
+                             quoted(folder.path() / "few.toml") + " --frames ";
+  for (int time = 0; time < 2; ++time) {
+    INFO("time " << time);
+    fmcw(bscope + "400:402");
+    CHECK(files_in(out) == std::vector<std::string>{"bscope/00400.exr", "bscope/00400.png",
+                                                    "bscope/00401.exr", "bscope/00401.png",
+                                                    "run.json", "timing.json"});
+  }
+  fmcw(bscope + "400");
+  CHECK_FALSE(fs::exists(out / "bscope/00401.png"));
+  for (int time = 0; time < 2; ++time) {
+    INFO("time " << time);
+    fmcw("street-76ghz --frames 16:18 --products spectrogram");
+    CHECK(files_in(out) == std::vector<std::string>{"radar.toml", "run.json", "spectrogram/all.exr",
+                                                    "spectrogram/all.png", "timing.json"});
+  }
+  fmcw("street-76ghz --frames 16 --products detections");
+  CHECK_FALSE(fs::exists(out / "spectrogram"));
+}
+
 TEST_CASE("What a killed fmcw leaves is replaced by the next run, and nothing else is",
           "[fmcw][stop]") {
   const TemporaryFolder folder;
