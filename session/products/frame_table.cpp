@@ -2,7 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <fstream>
+#include <optional>
 
 namespace fanbeam::session {
 
@@ -23,6 +25,19 @@ core::Metadata table_metadata(const std::filesystem::path& table) {
                           blank < line.size() ? line.substr(blank + 1) : "");
   }
   return metadata;
+}
+
+bool is_whole_table(const std::filesystem::path& table) {
+  std::ifstream stream(table);
+  std::optional<std::ptrdiff_t> of_names;
+  for (std::string line; std::getline(stream, line);) {
+    if (stream.eof()) return false;  // cut within it
+    if (!of_names && line.starts_with('#')) continue;
+    const std::ptrdiff_t commas = std::count(line.begin(), line.end(), ',');
+    if (commas != of_names.value_or(commas)) return false;
+    of_names = commas;
+  }
+  return of_names && !stream.bad();
 }
 
 std::filesystem::path frame_table_path(const std::filesystem::path& folder,

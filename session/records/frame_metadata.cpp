@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <optional>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "core/units.h"
 #include "sensors/display/grey_scale.h"
 #include "session/labels/labels_json.h"
+#include "session/labels/run_labels.h"
 #include "session/products/frame_table.h"
 #include "session/records/output_folder.h"
 #include "session/version.h"
@@ -74,6 +76,30 @@ std::string value_of(const core::Metadata& metadata, const std::string& name) {
   return "";
 }
 
+// False where there is no count of that name.
+bool take_count(const core::Metadata& metadata, const std::string& name, std::uint64_t& count) {
+  const std::string text = value_of(metadata, name);
+  const char* const end = text.data() + text.size();
+  const auto [behind, status] = std::from_chars(text.data(), end, count);
+  return status == std::errc() && behind == end;
+}
+
+bool take_all(const core::Metadata& metadata, FrameRecord& record) {
+  record.error = error_of(value_of(metadata, "fanbeam:estimated_error_grey"));
+  record.events = words_of(value_of(metadata, "fanbeam:events"));
+  return take_count(metadata, "fanbeam:rays", record.rays) &&
+         take_count(metadata, "fanbeam:slices", record.slices) &&
+         take_count(metadata, "fanbeam:blanked", record.blanked) &&
+         take_count(metadata, "fanbeam:unprojected", record.unprojected);
+}
+
+// What metadata_of does not look at. JSON it has read to its end.
+bool is_whole(const fs::path& file) {
+  if (file.extension() == ".csv") return is_whole_table(file);
+  if (file.extension() != ".json") core::read_image(file);  // throws
+  return true;
+}
+
 }  // namespace
 
 core::Metadata frame_metadata(const scenes::Scene& scene, const renderer::Sampling& sampling,
@@ -122,7 +148,6 @@ core::Metadata frame_metadata(const scenes::Scene& scene, const renderer::Sampli
 }
 
 core::Metadata metadata_of(const fs::path& file) {
-  constexpr std::uint64_t kLargestLabels_bytes = 1ULL << 28U;
   if (file.extension() == ".csv") return table_metadata(file);
   if (file.extension() != ".json") return core::read_metadata(file);
   return labels_metadata(core::read_file(file, kLargestLabels_bytes), file.string());
@@ -134,21 +159,13 @@ bool take_over(const fs::path& folder, const ProductSet& products, const std::st
   for (const std::string& name : frame_files(products, record.index)) {
     const fs::path file = folder / name;
     if (!fs::is_regular_file(file)) return false;
-    core::Metadata metadata;
     try {
-      metadata = metadata_of(file);
-      if (file.extension() != ".csv" && file.extension() != ".json")
-        core::read_image(file);  // whole?
+      const core::Metadata metadata = metadata_of(file);
+      if (value_of(metadata, "fanbeam:input") != fingerprint) return false;
+      if (!is_whole(file) || !take_all(metadata, record)) return false;
     } catch (const core::InputError&) {
       return false;  // damaged: render it again
     }
-    if (value_of(metadata, "fanbeam:input") != fingerprint) return false;
-    record.rays = std::stoull("0" + value_of(metadata, "fanbeam:rays"));
-    record.slices = std::stoull("0" + value_of(metadata, "fanbeam:slices"));
-    record.blanked = std::stoull("0" + value_of(metadata, "fanbeam:blanked"));
-    record.unprojected = std::stoull("0" + value_of(metadata, "fanbeam:unprojected"));
-    record.error = error_of(value_of(metadata, "fanbeam:estimated_error_grey"));
-    record.events = words_of(value_of(metadata, "fanbeam:events"));
   }
   record.resumed = true;
   return true;

@@ -20,7 +20,7 @@ core::Metadata frame_metadata(const scenes::Scene& scene, const renderer::Sampli
 core::Metadata metadata_of(const std::filesystem::path& file);
 
 // Fills `record` with what an earlier run with the same input left of this frame; false when any
-// product is missing, damaged or of another input.
+// product is missing, damaged (a table as far as is_whole_table tells) or of another input.
 bool take_over(const std::filesystem::path& folder, const ProductSet& products,
                const std::string& fingerprint, FrameRecord& record);
 

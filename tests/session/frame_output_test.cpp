@@ -6,8 +6,10 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/files.h"
 #include "core/units.h"
 #include "sensors/display/seed_signal.h"
+#include "session/products/frame_table.h"
 #include "session/records/frame_metadata.h"
 #include "tests/comma_locale.h"
 #include "tests/scenes/built_scene.h"
@@ -101,5 +103,36 @@ TEST_CASE("F18 what a picture says of its error is read back under a decimal com
     CHECK(again.error->cscope_rms_grey == 1.25);
     CHECK(again.error->levels == 3);
     CHECK(again.error->reached == reached);
+  }
+}
+
+// Only its head was looked at, and a number there that is none ended --resume with an internal error.
+TEST_CASE("A table that was damaged or cut off is not taken over", "[products][resume]") {
+  const tests::TemporaryFolder folder;
+  const auto scene = tests::good_scene(folder, tests::standing());
+  session::FrameRecord record;
+  record.pose = scene->trajectory->at(0.0);
+  record.rays = 1234;
+  const std::filesystem::path file = session::frame_table_path(folder.path(), "obstacles", 0);
+  std::filesystem::create_directories(file.parent_path());
+  const std::string head =
+      session::table_head("obstacles", session::frame_metadata(*scene, {}, record, "0123"));
+  const std::string whole = head + "range_m,height_m\n2084.28,8.09\n2100.00,\n";
+  const auto taken = [&](const std::string& text) {
+    core::write_file_atomically(file, text);
+    session::FrameRecord again;
+    const bool took = session::take_over(folder.path(), {"obstacles"}, "0123", again);
+    CHECK((!took || again.rays == 1234));
+    return took;
+  };
+  CHECK(taken(whole));
+  CHECK(taken(head + "range_m,height_m\n"));              // nothing stands there
+  CHECK_FALSE(taken(head));                               // the names are gone
+  CHECK_FALSE(taken(whole.substr(0, whole.size() - 1)));  // cut within the last row's end
+  CHECK_FALSE(taken(whole.substr(0, whole.rfind("00.00")) + "\n"));  // a field is missing
+  for (const char* rays : {"99999999999999999999999", "-1", "12x", ""}) {
+    INFO(rays);
+    CHECK_FALSE(
+        taken(tests::replaced(whole, "fanbeam:rays 1234", std::string("fanbeam:rays ") + rays)));
   }
 }
