@@ -31,23 +31,33 @@ void append(const DetectedFrame& added, DetectedFrame& frame, int& next) {
   next += static_cast<int>(renumbered.size());
 }
 
-// Frames of one time are one frame, of a file or of several.
+// Frames of one time are one frame, of a file or of several. Each file keeps the limits; so must all together.
 class FramesInOrder {
  public:
-  void add(std::vector<DetectedFrame> frames, const fs::path& file, core::ProblemList& problems) {
+  // False where more than the limits would be kept.
+  bool add(std::vector<DetectedFrame> frames, const fs::path& file, core::ProblemList& problems) {
     for (std::size_t i = 0; i < frames.size(); ++i) {
       DetectedFrame& one = frames[i];
       if (frames_.empty() || one.time_s > frames_.back().time_s) {
+        if (frames_.size() == kMostDetectedFrames) {
+          refuse_too_many("frames", kMostDetectedFrames, {file.string()}, problems);
+          return false;
+        }
         next_cluster_ = 0;
         for (const int number : one.clusters) next_cluster_ = std::max(next_cluster_, number + 1);
         frames_.push_back(std::move(one));
       } else if (one.time_s == frames_.back().time_s) {
+        if (frames_.back().detections.size() + one.detections.size() > kMostDetections) {
+          refuse_too_many("detections in a frame", kMostDetections, {file.string()}, problems);
+          return false;
+        }
         append(one, frames_.back(), next_cluster_);
       } else if (problems.all().size() < kMostDetectionProblems) {
         problems.error(ErrorClass::time, {file.string()}, "frame " + std::to_string(i) + " time_s",
                        core::number_text(one.time_s), "times that do not go back");
       }
     }
+    return true;
   }
   std::vector<DetectedFrame> taken() { return std::move(frames_); }
 
@@ -136,7 +146,7 @@ std::vector<DetectedFrame> read_detections(const fs::path& path, core::ProblemLi
     std::vector<DetectedFrame> read =
         tables ? read_detection_table(files[i], problems) : read_detection_json(files[i], problems);
     if (!moments.empty()) put_moment(moments[i], files[i], read, problems);
-    frames.add(std::move(read), files[i], problems);
+    if (!frames.add(std::move(read), files[i], problems)) break;
   }
   return frames.taken();
 }

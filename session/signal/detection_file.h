@@ -17,8 +17,8 @@
 // may not contradict a row's (E-TIME).
 // Frames of one time are one; clusters are each frame's own, whatever their numbers.
 //
-// Limits: files of 256 MiB, a million frames, 100 000 detections in a frame (a tracker takes fewer
-// measurements); ranges above 0 to 1e6 m, speeds within 1e5 m/s, azimuths within a half turn,
+// Limits: files of 256 MiB; a million frames, 100 000 detections in a frame (a tracker takes fewer
+// measurements), of all files together; ranges above 0 to 1e6 m, speeds within 1e5 m/s, azimuths within a half turn,
 // elevations within a quarter. Ranges are slant ones at the middle of the chirps, times those of the
 // waveform's clock at 0 (factories.h: of a chirp sequence its beginning), as `fanbeam fmcw` writes
 // them. What is wrong is told with its place; times that go back are E-TIME.

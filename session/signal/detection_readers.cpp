@@ -23,7 +23,6 @@ using core::JsonNode;
 
 constexpr std::uint64_t kLargestFile_bytes = 256ULL << 20U;
 constexpr core::JsonLimits kJsonLimits{16, 20'000'000};
-constexpr std::size_t kMostDetections = 100'000;
 constexpr core::NumberRange kTimes_s{-1e10, 1e10};
 constexpr core::NumberRange kRanges_m{0.0, 1e6, true};
 constexpr core::NumberRange kSpeeds_mps{-1e5, 1e5};
@@ -153,9 +152,7 @@ class Table {
   }
 
   void too_many(const char* what, std::size_t most) {
-    if (!told_)
-      problems_.error(ErrorClass::limit, lines_.place(), what, "more than " + std::to_string(most),
-                      "at most " + std::to_string(most));
+    if (!told_) refuse_too_many(what, most, lines_.place(), problems_);
     told_ = true;
   }
 
@@ -198,6 +195,12 @@ DetectedFrame frame_in(const JsonNode& node) {
 }
 
 }  // namespace
+
+void refuse_too_many(const char* what, std::size_t most, const core::Place& place,
+                     core::ProblemList& problems) {
+  problems.error(ErrorClass::limit, place, what, "more than " + std::to_string(most),
+                 "at most " + std::to_string(most));
+}
 
 std::vector<DetectedFrame> read_detection_table(const fs::path& file, core::ProblemList& problems) {
   return Table(file, problems).read();

@@ -12,7 +12,12 @@
 namespace fanbeam::session {
 
 inline constexpr std::size_t kMostDetectedFrames = 1'000'000;
+inline constexpr std::size_t kMostDetections = 100'000;     // in a frame
 inline constexpr std::size_t kMostDetectionProblems = 100;  // with as many a reader stops
+
+// "frames", "detections in a frame": more of them than `most`.
+void refuse_too_many(const char* what, std::size_t most, const core::Place& place,
+                     core::ProblemList& problems);
 
 // In the order of time.
 std::vector<DetectedFrame> read_detection_table(const std::filesystem::path& file,
