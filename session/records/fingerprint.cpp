@@ -31,15 +31,14 @@ class Hash {
   std::uint64_t value_ = 0xcbf29ce484222325U;
 };
 
-// "dem.tif" and all that begins with "dem.", in the order of names.
+// "dem.tif" and all that begins with "dem.", in the order of names. The folder is looked through to its end: its own
+// order is the file system's.
 std::set<fs::path> of_one_name(const fs::path& file) {
-  constexpr std::size_t kMostEntries = 10'000;  // of a folder that is worth a look
   std::set<fs::path> files;
   const std::string stem = file.stem().string() + ".";
   std::error_code status;
-  std::size_t seen = 0;
-  for (fs::directory_iterator entry(file.parent_path(), status), end;
-       !status && entry != end && ++seen < kMostEntries; entry.increment(status))
+  for (fs::directory_iterator entry(file.parent_path(), status), end; !status && entry != end;
+       entry.increment(status))
     if (entry->path().filename().string().starts_with(stem) && entry->is_regular_file(status))
       files.insert(entry->path());
   return files;

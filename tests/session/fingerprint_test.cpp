@@ -63,3 +63,25 @@ TEST_CASE("What stands beside a raster is of the input, whatever the case of its
     CHECK(session::fingerprint_of("", {raster}) != before);
   }
 }
+
+// In a large folder the file system's order told which files were looked at.
+TEST_CASE("What stands beside a raster is of the input in a folder of many files",
+          "[fingerprint]") {
+  const TemporaryFolder folder;
+  const auto raster = folder.write("dem.tif", "heights");
+  constexpr int kBeside = 40, kOthersEach = 300;
+  const auto beside = [](int i) { return "dem." + std::to_string(i); };
+  for (int i = 0; i < kBeside; ++i) {
+    folder.write(beside(i), "10");
+    for (int other = 0; other < kOthersEach; ++other)
+      folder.write("other" + std::to_string(i * kOthersEach + other), "");
+  }
+  std::string before = session::fingerprint_of("", {raster});
+  for (int i = 0; i < kBeside; ++i) {
+    INFO(i);
+    folder.write(beside(i), "20");
+    const std::string now = session::fingerprint_of("", {raster});
+    CHECK(now != before);
+    before = now;
+  }
+}
