@@ -4,7 +4,6 @@
 #include <optional>
 #include <string>
 #include <variant>
-#include <vector>
 
 #include "core/number_range.h"
 #include "core/pose.h"
@@ -49,13 +48,12 @@ struct Accuracy {
   double grey_levels = 0.5;
 };
 // The finest of a ladder (session/sampling_choice.h) with which both pictures of a frame take at most
-// so long on this machine, timed when it is set and kept until the next one. The slowest of `poses`
-// counts; without any, of three frames spread over the scene's trajectory. Where an accuracy is in
+// so long on this machine, timed when it is set and kept until the next one. The slowest of three frames
+// counts, spread over the scene's trajectory; a scene without one is refused. Where an accuracy is in
 // force, the scene's or one that was asked for, no time is spent on more than that. Too short a time
 // gives the coarsest, and a warning.
 struct TimeBudget {
   double ms = 0.0;  // 0.1 to 1e7
-  std::vector<core::Pose> poses{};
 };
 // The last one says every setting of its own: references, estimates.
 using SamplingWish = std::variant<Samples, Accuracy, TimeBudget, renderer::Sampling>;

@@ -293,24 +293,17 @@ SamplingChoice Session::timed(const TimeBudget& budget) const {
   const core::StopToken stop = core::StopScope::current();
   const Work work(stop, inside_->threads);
   const std::shared_ptr<const scenes::Scene> scene = now()->scene;
-  std::vector<renderer::FramePose> poses;
-  for (const core::Pose& pose : budget.poses) {
-    poses.push_back(scene->pose_at(pose));
-    renderer::check(poses.back());
-  }
-  if (poses.empty() && scene->frame_count() == 0)
-    core::throw_input_error(core::ErrorClass::ref, "time budget", "no poses",
-                            "poses to time, as the scene has no trajectory");
-  if (poses.empty()) {
-    std::vector<int> frames(static_cast<std::size_t>(scene->frame_count()));
-    std::iota(frames.begin(), frames.end(), 0);
-    poses = poses_to_time(*scene, frames);
-  }
+  if (scene->frame_count() == 0)
+    core::throw_input_error(core::ErrorClass::ref, "time budget", "no trajectory",
+                            "a scene with frames to time");
+  std::vector<int> frames(static_cast<std::size_t>(scene->frame_count()));
+  std::iota(frames.begin(), frames.end(), 0);
   const bool heights = scene->options.heights_shown;
   const SamplingRequest request = with_accuracy_of(
       scene->description,
       {.accuracy_grey = scene->options.accuracy_grey, .time_budget_ms = budget.ms});
-  return choose_sampling(request, *scene, inside_->seed, {true, heights}, poses);
+  return choose_sampling(request, *scene, inside_->seed, {true, heights},
+                         poses_to_time(*scene, frames));
 }
 
 core::ProblemList Session::set(const SamplingWish& wish) {

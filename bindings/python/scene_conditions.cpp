@@ -117,7 +117,7 @@ session::SamplingWish wish_of(const Scene& scene, const std::string& kind, doubl
   }
   if (kind == "time_budget") {
     core::check_range(problems, "time_budget_ms", value, renderer::kTimeBudgets_ms, "ms");
-    return session::TimeBudget{value, {}};
+    return session::TimeBudget{value};
   }
   return renderer::reference_sampling(scene.session().seed());
 }
