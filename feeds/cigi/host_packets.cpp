@@ -235,15 +235,12 @@ const Kind* kind_of(std::uint8_t id) {
 
 IgControl ig_control(const Fields& f) {
   IgControl control;
-  control.major_version = f.byte(2);
   control.database = static_cast<std::int8_t>(f.byte(3));
   control.mode = static_cast<Mode>(f.bits(4, 0, 2));
   control.timestamp_valid = f.bits(4, 2) != 0;
-  control.smooth = f.bits(4, 3) != 0;
   control.minor_version = f.bits(4, 4, 4);
   control.host_frame = f.at<std::uint32_t>(8);
   control.timestamp_10us = f.at<std::uint32_t>(12);
-  control.last_ig_frame = f.at<std::uint32_t>(16);
   return control;
 }
 

@@ -28,9 +28,9 @@ enum class Mode : std::uint8_t { standby, operate, debug, offline };
 struct IgControl {
   std::int8_t database = 0;
   Mode mode = Mode::standby;
-  bool timestamp_valid = false, smooth = false;
-  std::uint8_t major_version = 3, minor_version = 3;
-  std::uint32_t host_frame = 0, timestamp_10us = 0, last_ig_frame = 0;
+  bool timestamp_valid = false;
+  std::uint8_t minor_version = 3;
+  std::uint32_t host_frame = 0, timestamp_10us = 0;
 };
 
 struct EntityControl {
