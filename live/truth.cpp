@@ -10,14 +10,6 @@ namespace {
 
 constexpr std::size_t kKeptFrames = 4;
 
-std::string object_name(const renderer::World& world, std::uint32_t id) {
-  const std::vector<std::string>& names = world.geometry->object_names;
-  if (id < names.size()) return names[id];
-  // Point targets follow the objects.
-  const std::size_t target = id - names.size();
-  return target < world.targets.size() ? world.targets[target].name : std::string();
-}
-
 void check_cell(int column, int row, int columns, int rows) {
   core::ProblemList problems;
   core::check_range(problems, "column", column, {0.0, columns - 1.0});
@@ -77,7 +69,8 @@ std::optional<CellTruth> Truth::at(std::uint64_t frame, Scope scope, int column,
     cell.range_m = static_cast<double>(set.range_m[i]);
   if (set.material[i] < materials.size()) cell.material = materials[set.material[i]];
   cell.seen = set.material[i] != renderer::kNoMaterial || set.object[i] != terrain::kTerrainObject;
-  if (cell.seen) cell.object = object_name(world, set.object[i]);
+  const std::string* object = renderer::object_name(world, set.object[i]);
+  if (cell.seen && object != nullptr) cell.object = *object;
   return cell;
 }
 

@@ -116,15 +116,13 @@ fanbeam_status fanbeam_layer_ids(const fanbeam_layers* layers, uint32_t scope, c
 const char* fanbeam_layer_id_name(const fanbeam_layers* layers, const char* name,
                                   uint32_t id) noexcept {
   if (layers == nullptr || name == nullptr) return nullptr;
-  const renderer::Geometry& geometry = *layers->scene->world.geometry;
+  const renderer::World& world = layers->scene->world;
+  const std::vector<std::string>& materials = world.geometry->material_names;
   if (std::string_view(name) == "material")
-    return id < geometry.material_names.size() ? geometry.material_names[id].c_str() : nullptr;
+    return id < materials.size() ? materials[id].c_str() : nullptr;
   if (std::string_view(name) != "object") return nullptr;
-  if (id < geometry.object_names.size()) return geometry.object_names[id].c_str();
-  // Point targets follow the objects.
-  const std::vector<renderer::PointTarget>& targets = layers->scene->world.targets;
-  const std::size_t target = id - geometry.object_names.size();
-  return target < targets.size() ? targets[target].name.c_str() : nullptr;
+  const std::string* object = renderer::object_name(world, id);
+  return object != nullptr ? object->c_str() : nullptr;
 }
 
 void fanbeam_free_layers(fanbeam_layers* layers) noexcept { delete layers; }

@@ -15,6 +15,7 @@
 #include "core/parallel.h"
 #include "core/units.h"
 #include "renderer/plan/caster_choice.h"
+#include "renderer/stages/frame_layers.h"
 #include "scenes/ground_below.h"
 #include "sensors/display/grey_scale.h"
 #include "session/labels/labels_json.h"
@@ -195,9 +196,10 @@ py::list plan(const Scene& scene) {
 py::dict facts(const Scene& scene) {
   const std::shared_ptr<const scenes::Scene> now = scene.session().scene();
   const sensors::Sensor& sensor = now->description.sensor;
-  const renderer::Geometry& geometry = *now->world.geometry;
-  std::vector<std::string> objects = geometry.object_names;
-  for (const renderer::PointTarget& target : now->world.targets) objects.push_back(target.name);
+  std::vector<std::string> objects;
+  while (const std::string* name =
+             renderer::object_name(now->world, static_cast<terrain::ObjectId>(objects.size())))
+    objects.push_back(*name);
   const sensors::GreyScale grey(sensor);
   py::dict result;
   result["name"] = now->description.name;
@@ -217,7 +219,7 @@ py::dict facts(const Scene& scene) {
   result["caster"] = renderer::name_of(now->caster.chosen);
   result["caster_reason"] = now->caster.reason;
   result["surface"] = name_of(now->description.surface_state);
-  result["materials"] = geometry.material_names;
+  result["materials"] = now->world.geometry->material_names;
   result["objects"] = objects;
   return result;
 }

@@ -204,6 +204,13 @@ class LayerColumns {
 
 }  // namespace
 
+const std::string* object_name(const World& world, terrain::ObjectId object) {
+  const std::vector<std::string>& names = world.geometry->object_names;
+  if (object < names.size()) return &names[object];
+  const std::size_t target = object - names.size();
+  return target < world.targets.size() ? &world.targets[target].name : nullptr;
+}
+
 FrameLayers empty_layers(const sensors::Sensor& sensor, bool with_cscope) {
   FrameLayers layers = unseen(sensor, with_cscope);
   for (LayerSet* set : {&layers.bscope, &layers.cscope})

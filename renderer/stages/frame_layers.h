@@ -42,6 +42,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/echo.h"
@@ -65,6 +66,9 @@ struct FrameLayers {
   LayerSet bscope;
   LayerSet cscope;  // empty unless asked for
 };
+
+// Of a number in LayerSet::object, seen or not: point targets follow the objects. nullptr beyond the last.
+const std::string* object_name(const World& world, terrain::ObjectId object);
 
 // Nothing is seen.
 FrameLayers empty_layers(const sensors::Sensor& sensor, bool with_cscope);

@@ -96,13 +96,13 @@ core::Image cscope_layers(const LayerSet& layers, const sensors::Sensor& sensor)
 }
 
 std::string layers_json(const scenes::Scene& scene) {
-  const renderer::Geometry& geometry = *scene.world.geometry;
   nlohmann::ordered_json json;
   for (const FileLayer& layer : file_layers()) json["layers"][layer.name] = layer.what;
-  json["materials"] = geometry.material_names;
-  json["objects"] = geometry.object_names;
-  for (const renderer::PointTarget& target : scene.world.targets)
-    json["objects"].push_back(target.name);
+  json["materials"] = scene.world.geometry->material_names;
+  nlohmann::ordered_json& objects = json["objects"] = nlohmann::ordered_json::array();
+  while (const std::string* name =
+             renderer::object_name(scene.world, static_cast<terrain::ObjectId>(objects.size())))
+    objects.push_back(*name);
   return json.dump(1) + "\n";
 }
 
