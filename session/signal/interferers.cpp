@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/median.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "session/signal/spectrum.h"
 
@@ -16,13 +17,6 @@ const core::Echo* echo_of(const scenes::Scene& scene, const std::vector<core::Ec
   for (const core::Echo& echo : targets)
     if (scene.world.targets[echo.object_id].name == target) return &echo;
   return nullptr;
-}
-
-double median_W(std::vector<double> powers_W) {
-  if (powers_W.empty()) return 0.0;
-  const auto middle = powers_W.begin() + static_cast<std::ptrdiff_t>(powers_W.size() / 2);
-  std::nth_element(powers_W.begin(), middle, powers_W.end());
-  return *middle;
 }
 
 bool near(const signal::RadarDetection& a, const signal::RadarDetection& b) {
@@ -82,7 +76,7 @@ std::vector<InterferenceCase> interference_study(const FmcwRadar& radar, const F
     InterferenceCase one;
     one.name = name;
     const signal::PowerMap& map = found.range_doppler;
-    one.floor_W = median_W(map.values_W);
+    one.floor_W = core::median(map.values_W);
     one.mended = found.mended;
     const auto& detections = found.found->detections;
     if (cases.empty()) clean = detections;

@@ -26,15 +26,9 @@ constexpr int kAngleCells = 64;
 
 constexpr double kAutomotiveFrom_Hz = 70e9, kAutomotiveTo_Hz = 82e9;
 
-std::size_t number_of(std::string_view option) {
-  for (std::size_t i = 0; i < kWaveformNumbers.size(); ++i)
-    if (kWaveformNumbers[i].option == option) return i;
-  throw core::InternalError("no such option of a waveform");
-}
-
 // A default that an option replaces, in SI.
 void suggest(std::string_view option, double value, WaveformSettings& wanted) {
-  const std::size_t i = number_of(option);
+  const std::size_t i = waveform_number(option);
   if (!wanted.numbers[i]) wanted.numbers[i] = value / kWaveformNumbers[i].to_SI;
 }
 
@@ -59,9 +53,9 @@ double wanted_range_m(const FmcwSettings& options, const Front& front) {
 
 // Samples that reach the last range cell without folding, in whole megahertz.
 double reaching_rate_Hz(const WaveformSettings& wanted, double most_range_m) {
-  const auto ramp = wanted.numbers[number_of("--ramp")];
+  const auto ramp = wanted.numbers[waveform_number("--ramp")];
   const double ramp_s = ramp ? *ramp * 1e-6 : 20e-6;
-  const double bandwidth_Hz = wanted.numbers[number_of("--bandwidth")].value() * 1e6;
+  const double bandwidth_Hz = wanted.numbers[waveform_number("--bandwidth")].value() * 1e6;
   const double beat_Hz = 2.0 * bandwidth_Hz / ramp_s * most_range_m / core::kSpeedOfLight_mps;
   return 1e6 * std::ceil(std::max(1e6, 1.05 * beat_Hz) * 1e-6) * (wanted.real ? 2.0 : 1.0);
 }
@@ -271,14 +265,14 @@ FmcwRadar fmcw_radar(const FmcwSettings& options, const sensors::Sensor& sensor)
   if (sensor.scan.surface != sensors::ScanSurface::plane)
     core::throw_input_error(core::ErrorClass::unsupported, "scan.surface", "\"cone\"",
                             "a plane scan: a line array measures cones by itself");
-  if (const auto told = options.numbers[number_of("--frequency")])
+  if (const auto told = options.numbers[waveform_number("--frequency")])
     if (std::abs(*told * 1e9 / sensor.waveform.frequency_Hz - 1.0) > 1e-6)
       core::throw_input_error(core::ErrorClass::range, "waveform.frequency_GHz", *told,
                               "the scene's sensor's " +
                                   core::number_text(sensor.waveform.frequency_Hz * 1e-9) + " GHz");
   const std::string name = waveform_name(options, sensor);
   // Samples of its chirps alone, as recordings are, may be of transmitters in turn.
-  const double slots = options.numbers[number_of("--slots")].value_or(1.0);
+  const double slots = options.numbers[waveform_number("--slots")].value_or(1.0);
   if (kind_of(name) == WaveformKind::two_stage && slots != 1.0)
     core::throw_input_error(core::ErrorClass::unsupported, "--slots", slots,
                             "1 with two-stage, in whose triangle all transmitters send at once");
@@ -298,7 +292,7 @@ std::string name_without_scene(const FmcwSettings& options) {
 FmcwRadar fmcw_radar(const FmcwSettings& options) {
   core::ProblemList problems;
   const auto told = [&](const char* option, const char* key) {
-    const auto value = options.numbers[number_of(option)];
+    const auto value = options.numbers[waveform_number(option)];
     if (!value) problems.error(core::ErrorClass::ref, {}, key, "missing", "a number");
     return value.value_or(1.0);
   };
@@ -338,7 +332,7 @@ void check_detects(const FmcwRadar& radar) {
 void check_tells_samples(const FmcwSettings& options) {
   const std::string name = name_without_scene(options);
   if (name != kAutomotive && is_sequence(kind_of(name)) &&
-      !options.numbers[number_of("--sample-rate")])
+      !options.numbers[waveform_number("--sample-rate")])
     core::throw_input_error(core::ErrorClass::ref, "waveform.sample_rate_MHz", "missing",
                             "the rate that the samples were taken at");
 }

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <set>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,12 +22,12 @@ class Given {
   explicit Given(const WaveformSettings& options) : options_(options) {}
 
   void put(std::string_view option, double& value) {
-    const std::size_t i = place(option);
+    const std::size_t i = waveform_number(option);
     taken_.insert(i);
     if (options_.numbers[i]) value = *options_.numbers[i] * kWaveformNumbers[i].to_SI;
   }
   void put(std::string_view option, int& value) {
-    const std::size_t i = place(option);
+    const std::size_t i = waveform_number(option);
     double number = value;
     put(option, number);
     if (number != std::floor(number))
@@ -57,11 +56,6 @@ class Given {
   void refuse(const char* option, const std::string& value) const {
     core::throw_input_error(core::ErrorClass::unsupported, option, value,
                             "a parameter of " + options_.kind);
-  }
-  static std::size_t place(std::string_view option) {
-    for (std::size_t i = 0; i < kWaveformNumbers.size(); ++i)
-      if (kWaveformNumbers[i].option == option) return i;
-    throw core::InternalError("no such number of a waveform");
   }
 
   const WaveformSettings& options_;
@@ -195,6 +189,12 @@ std::string waveform_kinds_text() {
   for (const WaveformKind kind : signal::all_waveform_kinds())
     text.append(text.empty() ? "" : ", ").append(signal::name(kind));
   return text;
+}
+
+std::size_t waveform_number(std::string_view option) {
+  for (std::size_t i = 0; i < kWaveformNumbers.size(); ++i)
+    if (kWaveformNumbers[i].option == option) return i;
+  throw core::InternalError("no such number of a waveform");
 }
 
 signal::Waveform chosen_waveform(const WaveformSettings& options) {

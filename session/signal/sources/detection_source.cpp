@@ -1,5 +1,6 @@
-#include <algorithm>
+#include <utility>
 
+#include "core/median.h"
 #include "core/text.h"
 #include "session/signal/detection_file.h"
 #include "session/signal/radar_file.h"
@@ -74,9 +75,7 @@ std::optional<double> median_step_s(const std::vector<double>& times_s) {
   for (std::size_t i = 1; i < times_s.size(); ++i)
     if (times_s[i] > times_s[i - 1]) steps_s.push_back(times_s[i] - times_s[i - 1]);
   if (steps_s.empty()) return std::nullopt;
-  const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
-  std::nth_element(steps_s.begin(), middle, steps_s.end());
-  return *middle;
+  return core::median(std::move(steps_s));
 }
 
 std::unique_ptr<MeasuredSource> detection_source(const fs::path& path,
