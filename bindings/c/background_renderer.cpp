@@ -47,20 +47,11 @@ BackgroundRenderer::~BackgroundRenderer() {
 
 void BackgroundRenderer::submit(const fanbeam_pose& pose) {
   auto letter = std::make_unique<Letter>(Letter{pose, Clock::now()});
-  start();
+  // Whoever comes meanwhile waits: a letter is left for a thread that is there.
+  std::call_once(started_, [this] { thread_ = std::thread([this] { run(); }); });
   const std::unique_ptr<Letter> overtaken(
       waiting_.exchange(letter.release(), std::memory_order_acq_rel));
   ring();
-}
-
-void BackgroundRenderer::start() {
-  if (started_.test_and_set(std::memory_order_acquire)) return;
-  try {
-    thread_ = std::thread([this] { run(); });
-  } catch (...) {
-    started_.clear(std::memory_order_release);
-    throw;
-  }
 }
 
 void BackgroundRenderer::ring() {

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -42,8 +43,8 @@ class BackgroundRenderer {
   BackgroundRenderer(const BackgroundRenderer&) = delete;
   BackgroundRenderer& operator=(const BackgroundRenderer&) = delete;
 
-  // From any thread, without a lock; the first call starts the thread, which may throw
-  // std::system_error. The pose must have been checked.
+  // From any thread, without a lock once the thread runs. The first call starts it, which may throw
+  // std::system_error: then the next one tries again. The pose must have been checked.
   void submit(const fanbeam_pose& pose);
 
   NewestRing<Outcome>& outcomes() { return outcomes_; }
@@ -53,7 +54,6 @@ class BackgroundRenderer {
     fanbeam_pose pose;
     Clock::time_point arrived;
   };
-  void start();
   void ring();
   void run() noexcept;
   void render(const Letter& letter) noexcept;
@@ -65,7 +65,7 @@ class BackgroundRenderer {
   NewestRing<Outcome> outcomes_;
   std::atomic<Letter*> waiting_{nullptr};  // owned by whoever takes it out
   std::atomic<std::uint32_t> bell_{0};     // counts what the thread has to look at
-  std::atomic_flag started_ = ATOMIC_FLAG_INIT;
+  std::once_flag started_;
   std::uint64_t number_ = 0;  // the thread's own
   std::thread thread_;
 };

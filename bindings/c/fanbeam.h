@@ -251,7 +251,7 @@ FANBEAM_API void fanbeam_free_layers(fanbeam_layers* layers) FANBEAM_NOEXCEPT;
 /* Hands a pose to the session's thread and returns: takes no lock of the library's, waits for no
  * frame, allocates some hundred bytes. The thread renders both pictures (with bscope_alone that one)
  * of the newest pose; one that a newer one overtakes before its turn is dropped. The first call
- * starts the thread. A pose out of range is refused here. */
+ * starts the thread, and calls beside it wait until it has. A pose out of range is refused here. */
 FANBEAM_API fanbeam_status fanbeam_submit_pose(fanbeam_session* session,
                                                const fanbeam_pose* pose) FANBEAM_NOEXCEPT;
 
