@@ -62,7 +62,7 @@ void without_lock(const std::function<void(const core::StopToken&)>& work) {
   if (!raised) return done.get();
   try {
     done.get();
-  } catch (const core::Stopped&) {
+  } catch (...) {  // stopped, or it failed at that moment: the handler's goes up whatever it was
   }
   throw py::error_already_set(*raised);
 }
