@@ -33,8 +33,10 @@ Campaign read_checked(const CampaignOptions& options, const CommonOptions& commo
   const bool looks =
       options.task == Task::status || options.task == Task::merge || options.task == Task::verify;
   core::ProblemList problems;
-  Campaign campaign = datasets::read_campaign(
-      options.file, problems, looks ? datasets::ReadFor::looking : datasets::ReadFor::making);
+  Campaign campaign =
+      looks ? datasets::read_campaign(options.file, problems, datasets::ReadFor::looking)
+            : datasets::read_campaign(options.file, problems, datasets::ReadFor::making,
+                                      shipped_folder());
   check_data_folder(options.data, problems);
   problems.throw_if_errors();
   if (!common.isa.empty() && common.isa != core::short_name_of(campaign.isa))

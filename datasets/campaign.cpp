@@ -13,6 +13,7 @@
 #include "materials/library/surface_state.h"
 #include "scenes/airport/airport.h"
 #include "session/products/products.h"
+#include "session/shipped.h"
 
 namespace fanbeam::datasets {
 namespace {
@@ -79,13 +80,40 @@ void check_scene_names(ConfigTable& table, const Campaign& campaign) {
                   "each scene once, of another name than every [[airport]]");
 }
 
-void read_campaign_table(ConfigTable table, Campaign& campaign, ReadFor purpose) {
+// What is wrong with the name that `find` looks for is told of the key.
+template <class Find>
+void check_found(ConfigTable& table, const char* key, const Find& find) {
+  try {
+    find();
+  } catch (const core::InputError& error) {
+    const core::Problem& problem = error.problems().front();
+    table.error(ErrorClass::ref, key, problem.value, problem.expected);
+  }
+}
+
+// Where a worker looks for them: each of its runs would fail.
+void check_scenes_and_sensor(ConfigTable& table, const Campaign& campaign,
+                             const fs::path& shipped) {
+  for (const std::string& scene : campaign.scenes) {
+    if (table.problems().is_full()) return;
+    check_found(table, "scenes", [&] { session::find_scene(scene, shipped, campaign.folder()); });
+  }
+  if (!campaign.sensor.empty())
+    check_found(table, "sensor", [&] {
+      session::find_sensor(campaign.sensor, shipped, "sensor", campaign.folder());
+    });
+}
+
+void read_campaign_table(ConfigTable table, Campaign& campaign, ReadFor purpose,
+                         const fs::path& shipped) {
   campaign.name = table.required_text("name");
-  if (!core::is_safe_word(campaign.name))
+  if (table.is_text("name") && !core::is_safe_word(campaign.name))
     table.error(ErrorClass::range, "name", "\"" + campaign.name + "\"",
                 "letters, digits, - and _: it names folders");
   campaign.scenes = table.texts("scenes");
+  campaign.sensor = table.text("sensor", "");
   if (purpose == ReadFor::making) check_scene_names(table, campaign);
+  if (!shipped.empty()) check_scenes_and_sensor(table, campaign, shipped);
   for (const CampaignAirport& airport : campaign.airports) campaign.scenes.push_back(airport.name);
   if (campaign.scenes.empty())
     table.error(ErrorClass::ref, "scenes", "none", "at least one scene, or an [[airport]]");
@@ -101,7 +129,6 @@ void read_campaign_table(ConfigTable table, Campaign& campaign, ReadFor purpose)
   if (table.has("realisation"))
     campaign.sample = table.choice("realisation", {"mean", "sample"}, 0) == 1;
   campaign.samples_per_cell = table.number("samples_per_cell", renderer::kSamplesPerCell, 0.0);
-  campaign.sensor = table.text("sensor", "");
   campaign.archives = table.choice("runs_as", {"folders", "archives"}, 0) == 1;
 }
 
@@ -179,8 +206,9 @@ Distribution presence(ConfigTable& table, const Reading& reading) {
 void read_traffic(ConfigTable table, const Reading& reading) {
   Campaign& campaign = reading.campaign;
   const std::string name = table.required_text("name");
-  if (!core::is_safe_word(name) ||
-      std::find(campaign.traffic.begin(), campaign.traffic.end(), name) != campaign.traffic.end())
+  const auto& others = campaign.traffic;
+  if (table.is_text("name") &&
+      (!core::is_safe_word(name) || std::find(others.begin(), others.end(), name) != others.end()))
     table.error(ErrorClass::range, "name", "\"" + name + "\"",
                 "letters, digits, - and _, once in the file");
   campaign.traffic.push_back(name);
@@ -233,7 +261,8 @@ const Parameter* Campaign::find(std::string_view wanted) const {
 
 fs::path Campaign::folder() const { return fs::absolute(file).parent_path().lexically_normal(); }
 
-Campaign read_campaign(const fs::path& file, core::ProblemList& problems, ReadFor purpose) {
+Campaign read_campaign(const fs::path& file, core::ProblemList& problems, ReadFor purpose,
+                       const fs::path& shipped) {
   Campaign campaign;
   campaign.file = file;
   ConfigTable root = ConfigTable::from_file(file, problems);
@@ -241,7 +270,7 @@ Campaign read_campaign(const fs::path& file, core::ProblemList& problems, ReadFo
   campaign.text_hash = sha256(core::read_file(file, kLargestFile_bytes));
   for (ConfigTable& airport : root.tables("airport", 1000))
     campaign.airports.push_back(read_airport_of(airport, campaign.airports));
-  read_campaign_table(root.table("campaign"), campaign, purpose);
+  read_campaign_table(root.table("campaign"), campaign, purpose, shipped);
   const Reading reading{campaign, purpose};
   read_parameters(root.table("parameters"), reading);
   for (ConfigTable& traffic : root.tables("traffic", 1000))

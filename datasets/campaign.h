@@ -131,8 +131,10 @@ inline constexpr int kMostRuns = 100'000'000;
 enum class ReadFor { making, looking };
 
 // Every problem of the file is in `problems`, with line and column; with errors there the campaign must
-// not be used.
+// not be used. With the folder of what is shipped (session/shipped.h), scenes and a sensor that are neither
+// beside the file nor there are problems too (E-REF).
 Campaign read_campaign(const std::filesystem::path& file, core::ProblemList& problems,
-                       ReadFor purpose = ReadFor::making);
+                       ReadFor purpose = ReadFor::making,
+                       const std::filesystem::path& shipped = {});
 
 }  // namespace fanbeam::datasets

@@ -15,6 +15,25 @@ bool holds_shipped_files(const fs::path& folder) {
          fs::is_regular_file(folder / "sensors" / "hivision.toml");
 }
 
+// ", perhaps small": of the folders in `beside` that hold a scene, the one that is likely meant.
+std::string likely_beside(const std::string& wanted, const fs::path& beside) {
+  constexpr std::size_t kMostLookedAt = 1000, kLongestCompared = 100;
+  std::vector<std::string> names;
+  std::error_code refused;
+  fs::directory_iterator entry(beside.empty() ? fs::path(".") : beside, refused);
+  for (std::size_t i = 0; i < kMostLookedAt && entry != fs::directory_iterator(); ++i) {
+    if (fs::is_regular_file(entry->path() / "scene.toml", refused))
+      names.push_back(entry->path().filename().string());
+    entry.increment(refused);
+  }
+  std::sort(names.begin(), names.end());
+  const std::string start = wanted.substr(0, kLongestCompared);
+  for (const std::string& name : core::nearest_names(start, names, 1))
+    if (2 * core::edit_distance(start, name) <= std::max(start.size(), name.size()))
+      return ", perhaps " + name;
+  return {};
+}
+
 // " b a c": those that look most like `wanted` first.
 std::string nearest_first(const std::string& wanted, const std::vector<std::string>& names) {
   std::string text;
@@ -58,7 +77,8 @@ fs::path find_scene(const fs::path& name, const fs::path& shipped, const fs::pat
     if (fs::is_regular_file(candidate, refused) || fs::exists(candidate / "scene.toml", refused))
       return candidate;
   core::throw_input_error(core::ErrorClass::io, "scene", "\"" + name.string() + "\" not found",
-                          "a folder with scene.toml, or one of the shipped scenes:" +
+                          "a folder with scene.toml" + likely_beside(name.string(), beside) +
+                              ", or one of the shipped scenes:" +
                               nearest_first(name.string(), shipped_scenes(shipped)));
 }
 

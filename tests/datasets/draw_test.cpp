@@ -1,6 +1,7 @@
 // Drawn values: distributions in closed form, plans as pure functions of file and run.
 #include "datasets/draw.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -206,6 +207,52 @@ TEST_CASE("A scene is named once, and not as an airport is", "[draw]") {
                Catch::Contains("campaign.toml:3:") && Catch::Contains("E-REF campaign.scenes"));
     CHECK(told(scenes, airport, ReadFor::looking).empty());
   }
+}
+
+// Each of ten thousand runs failed by it, and told no line.
+TEST_CASE("A scene or sensor that is not there is refused by its line beside all else", "[draw]") {
+  const tests::TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "small");
+  folder.write("small/scene.toml", "");
+  const std::filesystem::path file = folder.write(
+      "campaign.toml",
+      "[campaign]\nname = \"x\"\nscenes = [\"smal\", \"flat-gras\", \"small\", \"flat-grass\"]\n"
+      "sensor = \"hivisoin\"\nruns = 0\n");
+  core::ProblemList problems;
+  datasets::read_campaign(file, problems, datasets::ReadFor::making, FANBEAM_SOURCE_DIR);
+  std::string told;
+  for (const core::Problem& problem : problems.all()) told += core::to_string(problem) + "\n";
+  INFO(told);
+  CHECK(problems.all().size() == 4);
+  for (
+      const char* part :
+      {"campaign.toml:3:1: E-REF campaign.scenes = \"smal\" not found: expected a folder with "
+       "scene.toml, perhaps small, or one of the shipped scenes: ",
+       "campaign.toml:3:1: E-REF campaign.scenes = \"flat-gras\" not found: expected a folder with "
+       "scene.toml, or one of the shipped scenes: flat-grass ",
+       "campaign.toml:4:1: E-REF campaign.sensor = \"hivisoin\" not found: expected a sensor file, "
+       "or one of the shipped sensors: hivision ",
+       "campaign.toml:5:1: E-RANGE campaign.runs = 0"})
+    CHECK_THAT(told, Catch::Contains(part));
+}
+
+TEST_CASE("A name that is missing is one mistake", "[draw]") {
+  const auto told = [](const std::string& text) {
+    try {
+      campaign_of(text);
+    } catch (const core::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string nameless =
+      told("[campaign]\nscenes = [\"flat-grass\"]\n[[traffic]]\nalong_m = 3\n[[traffic]]\n");
+  INFO(nameless);
+  CHECK(std::count(nameless.begin(), nameless.end(), '\n') == 2);
+  for (const char* field : {"campaign.name", "traffic[0].name", "traffic[1].name"})
+    CHECK_THAT(nameless, Catch::Contains(std::string("E-REF ") + field + " = missing"));
+  CHECK_THAT(told(head("sobol", 4) + "[[traffic]]\nname = \"\"\n"),
+             Catch::Contains("E-RANGE traffic[0].name = \"\""));
 }
 
 TEST_CASE("A product is named once; of an earlier version's campaign it is one column", "[draw]") {

@@ -112,13 +112,28 @@ def test_a_pilot_counts_each_scene_by_its_share_of_the_runs(program, tmp_path):
     assert float(pilot.split("all of it ")[1].split(" MB")[0]) == pytest.approx(size / 1e6, rel=0.1, abs=0.06)
 
 
-def test_a_plan_tells_why_runs_of_its_pilot_would_be_refused(program, tmp_path):
-    file = tmp_path / "nowhere.toml"
-    file.write_text(CAMPAIGN.replace("flat-grass", "flat-gras"), encoding="utf-8")
+def test_a_plan_tells_why_runs_of_its_pilot_would_be_refused(program, root, tmp_path):
+    scene = (root / "scenes" / "flat-grass" / "scene.toml").read_text(encoding="utf-8")
+    (tmp_path / "own").mkdir()
+    (tmp_path / "own" / "scene.toml").write_text(scene + "\n[weathr]\nhumidity = 0.4\n", encoding="utf-8")
+    file = tmp_path / "refused.toml"
+    file.write_text(CAMPAIGN.replace("flat-grass", "own"), encoding="utf-8")
     said = told(program, "plan", file, exit_code=3)
-    assert "would be refused: run " in said and " of flat-gras: " in said
-    assert "one of the shipped scenes" in said and said.count("would be refused") == 1
+    assert "would be refused: run " in said and " of own: " in said
+    assert "E-REF weathr = unknown key" in said and said.count("would be refused") == 1
     assert " of 1 scene on " in said
+
+
+def test_a_scene_and_a_sensor_that_are_not_there_are_refused_before_anything_runs(program, tmp_path):
+    file = tmp_path / "nowhere.toml"
+    text = CAMPAIGN.replace("flat-grass", "flat-gras").replace('isa = "v2"', 'isa = "v2"\nsensor = "hivisoin"')
+    file.write_text(text, encoding="utf-8")
+    for task in (["plan", file], ["run", file, "-o", tmp_path / "out"]):
+        said = told(program, *task, exit_code=3)
+        assert 'nowhere.toml:4:1: E-REF campaign.scenes = "flat-gras" not found' in said
+        assert 'E-REF campaign.sensor = "hivisoin" not found' in said
+        assert said.endswith("\n2 errors\n")
+    assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM])
