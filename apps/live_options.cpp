@@ -46,7 +46,6 @@ void add_poses(CLI::App& command, LiveOptions& options) {
           .add_option("--replay", options.replay,
                       "Fly what --record kept: with --lockstep every frame of it, byte by byte")
           ->type_name("FILE")
-          ->check(CLI::ExistingFile)
           ->excludes(record)
           ->excludes(from);
   command.add_option("--speed", options.speed, "Of a replay, times that of the recording")
@@ -77,8 +76,7 @@ void add_sinks(CLI::App& command, LiveOptions& options) {
       .add_option("--token-file", options.token_file,
                   "Ask of every request for the token on the file's only line, 16 to 256 letters "
                   "and digits (default: FANBEAM_TOKEN in the environment, else none)")
-      ->type_name("FILE")
-      ->check(CLI::ExistingFile);
+      ->type_name("FILE");
 }
 
 }  // namespace

@@ -113,7 +113,8 @@ TEST_CASE("A file that the command line names and that is not there is E-IO, exi
         "materials --library nowhere.toml", "materials objects --library nowhere.toml",
         "materials plot -o /dev/null/x.svg --library nowhere.toml",
         "materials fit --library nowhere.toml", "materials fit --csv nowhere.csv",
-        "track nowhere.json", "compare nowhere.png nowhere-else.png"}) {
+        "track nowhere.json", "compare nowhere.png nowhere-else.png", "live --replay nowhere.jsonl",
+        "live --token-file nowhere.txt"}) {
     const Result told = run_fanbeam(words);
     INFO("fanbeam " << words << ": " << told.output);
     CHECK(told.exit_code == 4);
