@@ -46,14 +46,16 @@ std::string word_in(const std::string& query, const std::string& name) {
   return {};
 }
 
-int whole_in(const std::string& query, const std::string& name, core::ProblemList& problems) {
+std::optional<int> whole_in(const std::string& query, const std::string& name,
+                            core::ProblemList& problems) {
   const std::string word = word_in(query, name);
   int value = 0;
   const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (word.empty() || fault != std::errc() || end != word.data() + word.size() || value < 0)
-    problems.error(core::ErrorClass::parse, {}, name, "\"" + word + "\"",
-                   "a whole number from 0 to " + std::to_string(std::numeric_limits<int>::max()));
-  return value;
+  if (!word.empty() && fault == std::errc() && end == word.data() + word.size() && value >= 0)
+    return value;
+  problems.error(core::ErrorClass::parse, {}, name, "\"" + word + "\"",
+                 "a whole number from 0 to " + std::to_string(std::numeric_limits<int>::max()));
+  return std::nullopt;
 }
 
 bool is_control(const std::string& path) { return path == kWeather || path == kSensor; }
@@ -98,6 +100,13 @@ void refuse_others(const core::JsonNode& root, std::initializer_list<const char*
     }
 }
 
+// With values that are wrong by themselves goes what is wrong with the others together.
+template <class Check>
+void refuse_with(core::ProblemList& problems, const Check& together) {
+  if (problems.has_errors()) problems.append(together().all());
+  problems.throw_if_errors();
+}
+
 void set_weather(session::Session& session, const core::JsonNode& root) {
   refuse_others(root,
                 {"visibility_m", "rain_rate_mm_per_h", "snow_rate_mm_per_h", "melting_layer"});
@@ -115,7 +124,10 @@ void set_weather(session::Session& session, const core::JsonNode& root) {
   weather.rain_rate_mm_per_h =
       root.required("rain_rate_mm_per_h").number({0.0, 300.0}).value_or(0.0);
   weather.snow_rate_mm_per_h = root.member("snow_rate_mm_per_h").number({0.0, 50.0}).value_or(0.0);
-  root.problems().throw_if_errors();
+  refuse_with(root.problems(), [&] {
+    const double frequency_Hz = session.scene()->description.sensor.waveform.frequency_Hz;
+    return atmosphere::problems_in(weather, frequency_Hz);
+  });
   session.set(weather);
 }
 
@@ -124,15 +136,22 @@ void set_sensor(session::Session& session, const core::JsonNode& root) {
   session::SensorSettings settings;
   if (const auto tilt_deg = root.member("tilt_deg").number({-90.0, 90.0}))
     settings.boresight_elevation_rad = core::radians(*tilt_deg);
-  settings.low_dB = root.member("low_dB").number({-400.0, 400.0});
-  settings.high_dB = root.member("high_dB").number({-400.0, 400.0});
-  root.problems().throw_if_errors();
+  const core::JsonNode low_dB = root.member("low_dB"), high_dB = root.member("high_dB");
+  settings.low_dB = low_dB.number({-400.0, 400.0});
+  settings.high_dB = high_dB.number({-400.0, 400.0});
   // Posted back as they are told: those of a display that has no others to set stay.
   const sensors::Sensor sensor = session.scene()->description.sensor;
   const sensors::GreyScale grey(sensor);
   if (sensor.display.mapping == sensors::Display::Mapping::seed &&
       settings.low_dB == grey.low_dB() && settings.high_dB == grey.high_dB())
     settings.low_dB = settings.high_dB = std::nullopt;
+  refuse_with(root.problems(), [&] {
+    // Beside a level that is wrong the other is neither below nor above.
+    if (low_dB.present() != settings.low_dB.has_value() ||
+        high_dB.present() != settings.high_dB.has_value())
+      settings.low_dB = settings.high_dB = std::nullopt;
+    return session.problems_in(settings);
+  });
   session.set(settings);
 }
 
@@ -168,14 +187,20 @@ Answer Desk::answer(const Request& request) const {
 Answer Desk::cell(const std::string& query) const {
   core::ProblemList problems;
   const std::string name = word_in(query, "scope");
-  if (name != "bscope" && name != "cscope")
+  std::optional<Scope> scope;
+  if (name == "bscope" || name == "cscope")
+    scope = name == "bscope" ? Scope::bscope : Scope::cscope;
+  else
     problems.error(core::ErrorClass::ref, {}, "scope", "\"" + name + "\"", "bscope or cscope");
-  const int frame = whole_in(query, "frame", problems);
-  const int column = whole_in(query, "column", problems), row = whole_in(query, "row", problems);
+  const auto frame = whole_in(query, "frame", problems);
+  const auto column = whole_in(query, "column", problems), row = whole_in(query, "row", problems);
+  // Else it is asked of the frame itself; pictures of all frames have as many cells.
+  if (problems.has_errors())
+    check_cell(session_.scene()->description.sensor, scope, column, row, problems);
   problems.throw_if_errors();
-  const Scope scope = name == "bscope" ? Scope::bscope : Scope::cscope;
-  const auto found = truth_.at(static_cast<std::uint64_t>(frame), scope, column, row);
-  Json told{{"frame", frame}, {"scope", name}, {"column", column}, {"row", row}, {"gone", !found}};
+  const auto found = truth_.at(static_cast<std::uint64_t>(*frame), *scope, *column, *row);
+  Json told{
+      {"frame", *frame}, {"scope", name}, {"column", *column}, {"row", *row}, {"gone", !found}};
   if (found) told.update(truth_json(*found));
   return json_answer(told);
 }

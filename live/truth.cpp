@@ -10,14 +10,17 @@ namespace {
 
 constexpr std::size_t kKeptFrames = 4;
 
-void check_cell(int column, int row, int columns, int rows) {
-  core::ProblemList problems;
-  core::check_range(problems, "column", column, {0.0, columns - 1.0});
-  core::check_range(problems, "row", row, {0.0, rows - 1.0});
-  problems.throw_if_errors();
+int rows_of(const sensors::Sensor& sensor, Scope scope) {
+  return scope == Scope::bscope ? sensor.range.cells : sensor.display.cscope_rows;
 }
 
 }  // namespace
+
+void check_cell(const sensors::Sensor& sensor, std::optional<Scope> scope,
+                std::optional<int> column, std::optional<int> row, core::ProblemList& problems) {
+  if (column) core::check_range(problems, "column", *column, {0.0, sensor.scan.columns - 1.0});
+  if (scope && row) core::check_range(problems, "row", *row, {0.0, rows_of(sensor, *scope) - 1.0});
+}
 
 std::shared_ptr<const Truth::Known> Truth::known(std::uint64_t frame) const {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -47,12 +50,13 @@ std::optional<CellTruth> Truth::at(std::uint64_t frame, Scope scope, int column,
   if (!known) return std::nullopt;
   const sensors::Sensor& sensor = known->scene->description.sensor;
   const bool bscope = scope == Scope::bscope;
-  const int rows = bscope ? sensor.range.cells : sensor.display.cscope_rows;
-  check_cell(column, row, sensor.scan.columns, rows);
+  core::ProblemList problems;
+  check_cell(sensor, scope, column, row, problems);
+  problems.throw_if_errors();
   const renderer::LayerSet& set = bscope ? known->layers.bscope : known->layers.cscope;
   if (set.visibility.empty()) return std::nullopt;
   // Layers begin with the nearest range cell, pictures with the farthest.
-  const int from_first = bscope ? rows - 1 - row : row;
+  const int from_first = bscope ? rows_of(sensor, scope) - 1 - row : row;
   const auto i =
       static_cast<std::size_t>(from_first) * static_cast<std::size_t>(sensor.scan.columns) +
       static_cast<std::size_t>(column);

@@ -27,6 +27,11 @@ struct CellTruth {
   std::optional<double> elevation_rad, range_m;
 };
 
+// Reports a column or row, of those that are told, beyond the picture; of a row only where the picture
+// is told, too.
+void check_cell(const sensors::Sensor& sensor, std::optional<Scope> scope,
+                std::optional<int> column, std::optional<int> row, core::ProblemList& problems);
+
 class Truth {
  public:
   // Both must outlive it.

@@ -282,6 +282,12 @@ core::ProblemList Session::set(const SensorSettings& settings) {
   });
 }
 
+core::ProblemList Session::problems_in(const SensorSettings& settings) const {
+  core::ProblemList problems;
+  with_settings(inside_->opened->description.sensor, settings, problems);
+  return problems;
+}
+
 core::ProblemList Session::set(std::span<const TargetState> targets) {
   return change([&](Asked& asked) {
     asked.conditions.targets = placed_targets(*inside_->opened, targets, asked.problems);

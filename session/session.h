@@ -73,6 +73,8 @@ class Session {
   core::ProblemList set(materials::SurfaceState state);
   // What is not set goes back to the scene's own.
   core::ProblemList set(const SensorSettings& settings);
+  // What is wrong with them by themselves and together; sets nothing.
+  core::ProblemList problems_in(const SensorSettings& settings) const;
   // The scene's own targets are where it says but for those named; new ones stay until the next call.
   core::ProblemList set(std::span<const TargetState> targets);
   // An accuracy is for effects left out as well, and stays for them until the next one.

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "live/flights.h"
@@ -363,6 +364,35 @@ TEST_CASE("A cell that is none is refused with all that is wrong", "[desk]") {
       office.desk.answer(get("/api/cell?scope=cscope&frame=1&column=164&row=524"));
   CHECK(beyond.status == 422);
   CHECK(json::parse(beyond.body)["problems"].size() == 2);
+}
+
+TEST_CASE("What is wrong with values together is told beside those that are wrong alone",
+          "[desk]") {
+  const Office office;
+  using Fields = std::set<std::string>;
+  const auto told = [&](const live::Request& request) {
+    const live::Answer answer = office.desk.answer(request);
+    INFO(answer.body);
+    CHECK(answer.status == 422);
+    Fields fields;
+    for (const json& problem : json::parse(answer.body)["problems"])
+      fields.insert(problem["field"].get<std::string>());
+    return fields;
+  };
+  const double high_dB = sensors::GreyScale(office.session->scene()->description.sensor).high_dB();
+  REQUIRE(high_dB < 100.0);
+  CHECK(told(post("/api/sensor", R"({"low_dB": 10, "high_dB": -10, "tilt_deg": -100})")) ==
+        Fields{"/tilt_deg", "low_dB, high_dB"});
+  CHECK(told(post("/api/weather",
+                  R"({"rain_rate_mm_per_h": 5, "snow_rate_mm_per_h": 5, "visibility_m": 3})")) ==
+        Fields{"/visibility_m", "snow_rate_mm_per_h"});
+  CHECK(told(get("/api/cell?scope=bscope&frame=x&column=1000&row=5000")) ==
+        Fields{"frame", "column", "row"});
+  // Of values that are wrong alone nothing more is said.
+  CHECK(told(post("/api/sensor", R"({"low_dB": 100, "high_dB": -1000})")) == Fields{"/high_dB"});
+  CHECK(told(post("/api/weather", R"({"rain_rate_mm_per_h": 5, "snow_rate_mm_per_h": 500})")) ==
+        Fields{"/snow_rate_mm_per_h"});
+  CHECK(told(get("/api/cell?scope=x&frame=1&column=1000&row=5000")) == Fields{"scope", "column"});
 }
 
 // A slider of the page, which posts all it was told, took the fog away.
