@@ -1,5 +1,7 @@
 #include "core/number_range.h"
 
+#include <array>
+#include <charconv>
 #include <cmath>
 
 namespace fanbeam::core {
@@ -13,6 +15,23 @@ std::string limit_text(double limit) {
   const bool negative = text[exponent + 1] == '-';
   const std::size_t digits = text.find_first_not_of("+-0", exponent + 1);
   return text.replace(exponent + 1, digits - exponent - 1, negative ? "-" : "");
+}
+
+double to_digits(double value, int digits) {
+  std::array<char, 64> text{};
+  char* const end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                  std::chars_format::general, digits)
+                        .ptr;
+  std::from_chars(text.data(), end, value);
+  return value;
+}
+
+// As it was written: what takes more digits than anybody writes went through arithmetic, -50 C through kelvin.
+std::string told_text(double value, const NumberRange& range) {
+  constexpr int kWritten = 15, kSure = 12;
+  if (!std::isfinite(value) || to_digits(value, kWritten) == value) return number_text(value);
+  const double sure = to_digits(value, kSure);
+  return number_text(range.holds(sure) ? value : sure);
 }
 
 }  // namespace
@@ -34,7 +53,7 @@ void check_range(ProblemList& problems, std::string_view field, double value,
   std::string expected = to_string(range);
   if (!unit.empty()) expected.append(" ").append(unit);
   problems.error(std::isfinite(value) ? ErrorClass::range : ErrorClass::nonfinite, {},
-                 std::string(field), number_text(value), std::move(expected));
+                 std::string(field), told_text(value, range), std::move(expected));
 }
 
 void require_range(std::string_view field, double value, const NumberRange& range,

@@ -28,7 +28,8 @@ struct NumberRange {
 // "0.1 to 1e7", "at least 1", "above 1, at most 10", "0, or 0.3 to 10000".
 std::string to_string(const NumberRange& range);
 
-// Adds E-NONFINITE or E-RANGE with the range, and the unit behind it, when `value` lies outside.
+// Adds E-NONFINITE or E-RANGE with the range, and the unit behind it, when `value` lies outside; of a
+// value with more than 15 digits twelve are told, where these lie outside too.
 void check_range(ProblemList& problems, std::string_view field, double value,
                  const NumberRange& range, std::string_view unit = {});
 // The same for a single input: throws InputError.

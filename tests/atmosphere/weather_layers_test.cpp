@@ -186,6 +186,22 @@ TEST_CASE("Levels that make air no gas law takes are refused by the level they c
   CHECK(told({{0.0, 15.0, 0.5, 1013.0}, {12000.0, -60.0, 0.1, 190.0}}).empty());
 }
 
+// Through kelvin and back it was told as -49.99999999999997.
+TEST_CASE("A temperature that is too low for fog is told as it is given", "[sounding]") {
+  for (const double origin_m : {0.0, 80.0, 500.0})
+    for (const double temperature_C : {-50.0, -41.3}) {
+      Weather weather;
+      weather.origin_height_m = origin_m;
+      weather.visibility_m = 300.0;
+      weather.temperature_C = temperature_C;
+      const core::ProblemList problems = problems_in(weather, 35e9);
+      REQUIRE(problems.all().size() == 1);
+      CHECK(core::to_string(problems.all()[0]) ==
+            "E-RANGE temperature_C = " + core::number_text(temperature_C) +
+                ": expected -40 to 50 C where there is fog");
+    }
+}
+
 TEST_CASE("Wrong levels and layers are refused, all problems together", "[sounding]") {
   Weather weather;
   weather.levels = {{100.0, 3.0, 0.5, std::nullopt}, {50.0, 70.0, 1.5, 20.0}};
