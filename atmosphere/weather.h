@@ -18,12 +18,15 @@
 #include "atmosphere/precipitation/rain_echo.h"
 #include "atmosphere/precipitation/snow.h"
 #include "core/errors.h"
+#include "core/number_range.h"
 
 namespace fanbeam::atmosphere {
 
 // Between these the profiles are computed; beyond them their values go on.
 inline constexpr double kLowestWeather_m = -2000.0;
 inline constexpr double kHighestWeather_m = 12000.0;
+// Of the models together; some laws take less.
+inline constexpr core::NumberRange kWeatherFrequencies_Hz{1e9, 1e12};
 
 enum class GasPart { whole, oxygen, vapour };
 

@@ -209,7 +209,7 @@ void check_laws(core::ProblemList& problems, const Weather& weather, double freq
 
 core::ProblemList problems_in(const Weather& weather, double frequency_Hz) {
   core::ProblemList problems;
-  check_frequency(problems, frequency_Hz, 1e9, 1e12);
+  check_frequency(problems, frequency_Hz, kWeatherFrequencies_Hz.low, kWeatherFrequencies_Hz.high);
   collect(problems, "", [&] {
     StandardAtmosphere(
         {weather.origin_height_m, weather.temperature_C, weather.pressure_hPa, weather.humidity});

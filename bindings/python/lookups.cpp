@@ -75,7 +75,10 @@ py::array_t<double> nrcs(const py::handle& file, const py::handle& name,
   core::ProblemList problems;
   const auto material = value_of<std::string>(name, "material", problems);
   const Angles angles_rad = angles_of(grazing_rad, problems);
-  const auto frequency = held_of<double>(frequency_Hz, "frequency_Hz", problems);
+  core::ProblemList beyond;  // where nothing is extrapolated to
+  const auto frequency =
+      number_of<double>(frequency_Hz, "frequency_Hz", beyond, materials::kNrcsFrequencies_Hz, "Hz");
+  problems.append(beyond.all());
   const core::Polarisation seen =
       polarisation_of(value_of<std::string>(polarisation, "polarisation", problems), problems);
   const auto state_word = value_of<std::string>(state, "state", problems);
@@ -85,13 +88,13 @@ py::array_t<double> nrcs(const py::handle& file, const py::handle& name,
   materials::SurfaceState surface{};
   collect(problems, [&] { surface = materials::surface_state_of(state_word, "state"); });
   const auto found = library ? library->find(material, {}, "material", problems) : std::nullopt;
-  if (found && frequency)
-    library->report_extrapolations(library->in_state(*found, surface), seen, *frequency, allowed,
+  if (found && !beyond.has_errors())
+    library->report_extrapolations(library->in_state(*found, surface), seen, frequency, allowed,
                                    problems, "extrapolate=True");
   problems.throw_if_errors();
   for (const py::handle warning : problems_list(problems.all())) warnings.append(warning);
   const materials::NrcsCurve curve((*library)[library->in_state(*found, surface)].model, seen,
-                                   *frequency);
+                                   frequency);
   py::array_t<double> result(
       std::vector<py::ssize_t>(angles_rad.shape(), angles_rad.shape() + angles_rad.ndim()));
   for (py::ssize_t i = 0; i < angles_rad.size(); ++i)
@@ -102,9 +105,15 @@ py::array_t<double> nrcs(const py::handle& file, const py::handle& name,
 
 PathAttenuation air_of(const py::dict& weather, const py::handle& frequency_Hz) {
   core::ProblemList problems;
-  const auto frequency = value_of<double>(frequency_Hz, "frequency_Hz", problems);
-  problems.throw_if_errors();
-  return {changed_weather({}, weather, frequency), frequency};
+  const auto frequency = number_of<double>(frequency_Hz, "frequency_Hz", problems,
+                                           atmosphere::kWeatherFrequencies_Hz, "Hz");
+  if (!problems.has_errors()) return {changed_weather({}, weather, frequency), frequency};
+  // What is wrong with the weather is told beside it: at a frequency that its laws take.
+  constexpr double kUsual_Hz = 35e9;
+  collect(problems, [&] {
+    atmosphere::problems_in(changed_weather({}, weather, kUsual_Hz), kUsual_Hz).throw_if_errors();
+  });
+  throw core::InputError(problems.all());
 }
 
 // The air's profile ends there: a look-up beyond it would have the air of its ends go on for ever.

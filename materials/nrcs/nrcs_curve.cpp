@@ -10,7 +10,7 @@ NrcsCurve::NrcsCurve(const PhongNrcs& nrcs) { std::get<PhongSurface>(model_).nrc
 
 NrcsCurve::NrcsCurve(const SurfaceModel& model, Polarisation polarisation, double frequency_Hz)
     : model_(model), polarisation_(polarisation), frequency_Hz_(frequency_Hz) {
-  core::require_range("frequency_Hz", frequency_Hz, {0.1e9, 300e9});
+  core::require_range("frequency_Hz", frequency_Hz, kNrcsFrequencies_Hz);
   // Scaled once here, so that the form is evaluated in the sine as it stands.
   if (PhongSurface* phong = std::get_if<PhongSurface>(&model_)) {
     phong->nrcs = phong->at_frequency(frequency_Hz);

@@ -1,9 +1,12 @@
 // A reflectivity model at one frequency and polarisation: what the renderer needs of a material.
 #pragma once
 
+#include "core/number_range.h"
 #include "materials/nrcs/surface_model.h"
 
 namespace fanbeam::materials {
+
+inline constexpr core::NumberRange kNrcsFrequencies_Hz{0.1e9, 300e9};
 
 class NrcsCurve {
  public:
@@ -15,7 +18,7 @@ class NrcsCurve {
 
   // Outside the model's frequencies and polarisations the rules of surface_model.h hold; whoever
   // builds the curve asks extrapolations_of first. Throws InputError E-RANGE or E-NONFINITE for a
-  // frequency outside 0.1 to 300 GHz.
+  // frequency outside kNrcsFrequencies_Hz.
   NrcsCurve(const SurfaceModel& model, Polarisation polarisation, double frequency_Hz);
 
   // sin_grazing in [0, 1]; 0 for back faces, never negative.

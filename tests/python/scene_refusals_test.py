@@ -81,6 +81,7 @@ def test_every_problem_is_told_at_once(grass):
         ("visibility_m", lambda scene: fanbeam.Atmosphere(visibility_m=10**400)),
         ("temperature_C pressure_hPa", lambda scene: scene.set_weather(temperature_C=90.0, pressure_hPa=10**400)),
         ("frequency_Hz state", lambda scene: fanbeam.nrcs("short_grass", 0.1, frequency_Hz=10**400, state="moist")),
+        ("frequency_Hz humidity", lambda scene: fanbeam.Atmosphere(94, humidity=2.0)),
     ],
 )
 def test_problems_of_one_call_are_told_together(grass, fields, call):
@@ -95,6 +96,14 @@ def test_a_number_that_is_too_large_is_told_the_range_of_its_field(grass):
         fanbeam.Scene.open("flat-grass", threads=2**70)
     with pytest.raises(fanbeam.InputError, match="noise_figure_dB = 10{400}: expected 0 to 60 dB$"):
         grass.set_sensor(noise_figure_dB=10**400)
+
+
+# With GHz in mind; extrapolation is of no help there.
+def test_a_frequency_that_no_model_takes_is_told_by_its_argument():
+    with pytest.raises(fanbeam.InputError, match="E-RANGE frequency_Hz = 94: expected 1e9 to 1e12 Hz$"):
+        fanbeam.Atmosphere(94)
+    with pytest.raises(fanbeam.InputError, match="E-RANGE frequency_Hz = 35: expected 1e8 to 3e11 Hz$"):
+        fanbeam.nrcs("short_grass", 0.1, frequency_Hz=35)
 
 
 def test_a_library_that_is_none_is_told_beside_what_else_is_wrong(tmp_path):
