@@ -9,6 +9,7 @@
 #include "core/errors.h"
 #include "core/json_node.h"
 #include "core/units.h"
+#include "session/records/output_folder.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -91,6 +92,7 @@ void refuse_other_options(const TrackOptions& options, session::TrackInput input
 }
 
 void check_output(const fs::path& folder) {
+  session::check_can_be_folder(folder);
   std::error_code status;
   const fs::path record = folder / "run.json";
   if (fs::is_regular_file(record, status) && !is_ours(record))

@@ -12,7 +12,8 @@ namespace fanbeam::apps {
 // E-UNSUPPORTED for each option given that says nothing of this kind of input: exit code 2.
 void refuse_other_options(const TrackOptions& options, session::TrackInput input);
 
-// E-RANGE of --output for a folder with a record that `fanbeam track` has not written: exit code 2.
+// E-RANGE of --output for a folder with a record that `fanbeam track` has not written: exit code 2. E-IO
+// where a file has the folder's place.
 void check_output(const std::filesystem::path& folder);
 
 session::BodyErrors body_errors(const TrackOptions& options);

@@ -114,6 +114,16 @@ void each_file(const fs::path& folder, Visit visit) {
 
 const char* const kRadarFile = "radar.toml";
 
+void check_can_be_folder(const fs::path& folder) {
+  std::error_code none;
+  fs::path there = folder;  // or what is there of the folders around it
+  while (there.has_parent_path() && there.has_relative_path() && !fs::exists(there, none))
+    there = there.parent_path();
+  if (fs::exists(there, none) && !fs::is_directory(there, none))
+    core::throw_input_error(core::ErrorClass::io, "--output", "\"" + folder.string() + "\"",
+                            "a folder, there or to be made: " + there.string() + " is a file");
+}
+
 std::set<std::string> frame_files(const std::set<std::string>& products, int index) {
   std::set<std::string> files;
   for (const std::string& product : products) {
@@ -254,6 +264,7 @@ OutputFolder::OutputFolder(fs::path folder, std::string fingerprint, bool overwr
       fingerprint_(std::move(fingerprint)),
       overwrite_(overwrite),
       listed_(listed_in(folder_)) {
+  check_can_be_folder(folder_);
   noted_.products = listed_.products;
   noted_.begun = listed_.begun;
   if (!has_record_of_another())

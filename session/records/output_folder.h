@@ -22,11 +22,15 @@ namespace fanbeam::session {
 // The radar of a run at signal level (session/signal/radar_file.h).
 extern const char* const kRadarFile;
 
+// Throws InputError E-IO of --output where the folder, or one around it, is a file: told by the first file
+// that is to be written there, it would cost the time to make that.
+void check_can_be_folder(const std::filesystem::path& folder);
+
 class OutputFolder {
  public:
   // Looks, and changes nothing. Throws InputError (E-RANGE of --overwrite: exit code 2) naming
   // files that neither run.json lists nor this input made, unless `overwrite`. Hidden files are
-  // nobody's business.
+  // nobody's business. Throws as check_can_be_folder.
   OutputFolder(std::filesystem::path folder, std::string fingerprint, bool overwrite);
   // Of a run that failed before any file of its own was there, the record that it replaces comes back.
   ~OutputFolder();

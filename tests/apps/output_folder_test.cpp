@@ -481,3 +481,22 @@ TEST_CASE("A frame that fmcw refuses leaves no folder", "[fmcw]") {
             .exit_code == 3);
   CHECK_FALSE(fs::exists(out));
 }
+
+// It was told when the first picture was to be written, and which option had named it was not.
+TEST_CASE("A file in the place of the output folder is told before anything is made", "[render]") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("plain", "");
+  const fs::path table =
+      folder.write("det.csv", "time_s,range_m,radial_speed_mps,azimuth_deg\n0,10,1,2\n");
+  for (const fs::path& place : {file, file / "below"})
+    for (const std::string& words :
+         {std::string("render flat-grass --frames 0"), "track " + quoted(table)}) {
+      const Result told = run_fanbeam(words + " -o " + quoted(place));
+      INFO(words << ": " << told.output);
+      CHECK(told.exit_code == 4);
+      CHECK(told.output.find("E-IO --output = \"" + place.string() + "\": expected a folder") !=
+            std::string::npos);
+      CHECK(told.output.find("frames/s") == std::string::npos);
+    }
+  CHECK(fs::is_regular_file(file));
+}
