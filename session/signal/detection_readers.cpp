@@ -114,10 +114,25 @@ class Table {
     std::array<double, kColumns.size()> values{};
     values[kCluster] = signal::kNoCluster;
     values[kRatio] = kRatios_dB.high;  // not told: the errors stand alone
-    bool good = true;
-    for (std::size_t i = 0; i < kColumns.size(); ++i)
-      if (place_[i] < width_) good = take(cells[place_[i]], kColumns[i], values[i]) && good;
+    bool good = true, timed = true;
+    for (std::size_t i = 0; i < kColumns.size(); ++i) {
+      if (place_[i] >= width_ || take(cells[place_[i]], kColumns[i], values[i])) continue;
+      good = false;
+      timed = timed && i != kTime;
+    }
+    if (timed && !follows(values[kTime])) good = false;
     if (good) put(values);
+  }
+
+  // Of each row with a time, whatever else is wrong with it or with those before.
+  bool follows(double time_s) {
+    if (time_s < newest_s_) {
+      problems_.error(ErrorClass::time, lines_.place(), "time_s", core::number_text(time_s),
+                      "times that do not go back");
+      return false;
+    }
+    newest_s_ = time_s;
+    return true;
   }
 
   bool take(std::string_view text, const Column& column, double& value) {
@@ -137,11 +152,6 @@ class Table {
   }
 
   void put(const std::array<double, kColumns.size()>& values) {
-    if (!frames_.empty() && values[kTime] < frames_.back().time_s) {
-      problems_.error(ErrorClass::time, lines_.place(), "time_s", core::number_text(values[kTime]),
-                      "times that do not go back");
-      return;
-    }
     if (frames_.empty() || values[kTime] > frames_.back().time_s) {
       if (frames_.size() == kMostDetectedFrames) return too_many("frames", kMostDetectedFrames);
       frames_.push_back({values[kTime], {}, {}, {}});
@@ -161,6 +171,7 @@ class Table {
   std::array<std::size_t, kColumns.size()> place_{};
   std::size_t width_ = 0;
   std::vector<DetectedFrame> frames_;
+  double newest_s_ = kTimes_s.low;
   bool told_ = false;
 };
 

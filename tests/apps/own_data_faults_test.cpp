@@ -165,6 +165,23 @@ TEST_CASE("JSON detections have the members of the format alone, and one velocit
   CHECK(contrary[0].field == "/radar_speed_mps");
 }
 
+// A row with a wrong cell was passed over, its time too.
+TEST_CASE("Times of a table that go back are told beside what else is wrong with its rows",
+          "[track]") {
+  const tests::TemporaryFolder folder;
+  core::ProblemList problems;
+  session::read_detections(
+      folder.write("back.csv",
+                   "time_s,range_m,radial_speed_mps,azimuth_deg\n0,10,1,2\n0.1,-10,1,2\n"
+                   "0.05,12,1,2\nx,12,1,2\n0.2,12,1,2\n0.15,-3,1,2\n"),
+      problems);
+  std::vector<std::string> told;
+  for (const core::Problem& problem : problems.all())
+    told.push_back(std::to_string(problem.place.line) + " " + problem.code);
+  CHECK(told ==
+        std::vector<std::string>{"3 E-RANGE", "4 E-TIME", "5 E-PARSE", "7 E-RANGE", "7 E-TIME"});
+}
+
 // Two cars 5 m apart, each cluster 0 of its radar's frame, were one measurement between them.
 TEST_CASE("Clusters of two frames of one time stay apart", "[track]") {
   const tests::TemporaryFolder folder;

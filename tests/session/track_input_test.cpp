@@ -56,6 +56,9 @@ TEST_CASE("Samples without the file of their radar are refused by the option tha
   const tests::TemporaryFolder folder;
   CHECK_THROWS_WITH(session::recorded_source(folder.write("any.npy", ""), {}, {}),
                     Catch::Contains("E-REF --radar = not given: expected the radar file"));
+  CHECK_THROWS_WITH(
+      session::recorded_source(folder.path() / "none.npy", {}, {}),
+      Catch::Contains("E-REF --radar = not given") && Catch::Contains("none.npy: E-IO"));
 }
 
 TEST_CASE("Scenarios of a file are chosen by their id, with the radar that the settings mean",

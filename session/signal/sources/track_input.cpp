@@ -3,6 +3,7 @@
 #include <system_error>
 
 #include "core/json_node.h"
+#include "core/npy.h"
 #include "session/records/output_folder.h"
 #include "session/signal/detection_file.h"
 
@@ -38,14 +39,28 @@ std::optional<fs::path> radar_file_of(const fs::path& input, const fs::path& tol
   return std::nullopt;
 }
 
+// They are not read, and what is no file of samples is told all the same.
+[[noreturn]] void refuse_without_radar(const std::vector<fs::path>& samples) {
+  core::ProblemList problems;
+  problems.error(core::ErrorClass::ref, {}, "--radar", "not given",
+                 "the radar file that belongs to the samples");
+  for (const fs::path& file : samples) {
+    if (problems.is_full()) break;
+    try {
+      core::read_npy_header(file);
+    } catch (const core::InputError& error) {
+      problems.append(error.problems());
+    }
+  }
+  throw core::InputError(problems.all());
+}
+
 std::unique_ptr<MeasuredSource> source_of(const fs::path& input, const fs::path& told_radar_file,
                                           const SourceSettings& settings) {
   const auto radar_file = radar_file_of(input, told_radar_file);
   const std::vector<fs::path> samples = samples_of(input);
   if (samples.empty()) return detection_source(input, radar_file, settings);
-  if (!radar_file)
-    core::throw_input_error(core::ErrorClass::ref, "--radar", "not given",
-                            "the radar file that belongs to the samples");
+  if (!radar_file) refuse_without_radar(samples);
   return sample_source(input, samples, *radar_file, settings);
 }
 
