@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <charconv>
 
 #include "core/config_document_private.h"
 #include "core/files.h"
@@ -11,10 +12,12 @@ namespace {
 constexpr std::uint64_t kLargestFile_bytes = 4U << 20U;
 constexpr int kDeepestNesting = 64;
 
-// The likely meant key, or the ones that look most like it.
-std::string suggestion(const std::string& name, const std::vector<std::string>& known) {
+// The likely meant key, or the ones that look most like it, of those that the table lacks.
+std::string suggestion(const std::string& name, std::vector<std::string> known,
+                       const toml::table& table) {
   constexpr std::size_t kLikelyMistyped = 3;  // edits
   constexpr std::size_t kMostNames = 5;
+  std::erase_if(known, [&](const std::string& key) { return table.contains(key); });
   const std::vector<std::string> nearest = nearest_names(name, known, kMostNames);
   if (nearest.empty()) return "";
   if (edit_distance(name.substr(0, 100), nearest.front()) <= kLikelyMistyped)
@@ -23,6 +26,29 @@ std::string suggestion(const std::string& name, const std::vector<std::string>& 
   for (const std::string& each : nearest)
     names += (names.empty() ? ", such as \"" : "\", \"") + each;
   return names + "\"";
+}
+
+// Of the key at the end of "box[0].wall", or of the element that the path ends in. Keys may hold points and brackets.
+const toml::source_region* region_at(const toml::table& table, std::string_view path) {
+  for (const auto& [key, node] : table) {
+    if (!path.starts_with(key.str())) continue;
+    std::string_view rest = path.substr(key.str().size());
+    if (rest.empty()) return &key.source();
+    const toml::node* inner = &node;
+    if (rest.front() == '[' && node.is_array()) {
+      std::size_t index = 0;
+      const char* const last = rest.data() + rest.size();
+      const char* const end = std::from_chars(rest.data() + 1, last, index).ptr;
+      if (end == last || *end != ']') continue;
+      inner = node.as_array()->get(index);
+      rest.remove_prefix(static_cast<std::size_t>(end - rest.data()) + 1);
+      if (inner == nullptr) continue;
+      if (rest.empty()) return &inner->source();
+    }
+    if (!inner->is_table() || rest.front() != '.') continue;
+    if (const auto* region = region_at(*inner->as_table(), rest.substr(1))) return region;
+  }
+  return nullptr;
 }
 
 }  // namespace
@@ -170,8 +196,9 @@ void ConfigTable::Document::report_unknown(const toml::table& table, const std::
     const std::string name(key.str());
     if (!known.contains(name)) {
       if (problems->is_full()) return;
-      problems->error(ErrorClass::ref, place_of(key.source(), file), prefix + name, "unknown key",
-                      "a key of this table" + suggestion(name, {known.begin(), known.end()}));
+      problems->error(
+          ErrorClass::ref, place_of(key.source(), file), prefix + name, "unknown key",
+          "a key of this table" + suggestion(name, {known.begin(), known.end()}, table));
       continue;
     }
     if (const toml::table* child = node.as_table(); child != nullptr && asked.contains(child))
@@ -186,6 +213,14 @@ void ConfigTable::Document::report_unknown(const toml::table& table, const std::
 }
 
 void ConfigTable::report_unknown_keys() { document_->report_unknown(document_->root, ""); }
+
+KeyPlaces ConfigTable::key_places() const {
+  return [document = document_](std::string_view path) -> std::optional<Place> {
+    const toml::source_region* const region = region_at(document->root, path);
+    if (region == nullptr) return std::nullopt;
+    return place_of(*region, document->file);
+  };
+}
 
 const ResolvedConfig& ConfigTable::resolved() const { return document_->resolved; }
 

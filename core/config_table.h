@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -27,6 +28,10 @@ namespace fanbeam::core {
 // One value as the program understood it, defaults included: {"weather.visibility_m", 150.0}.
 using ConfigValue = std::variant<bool, double, std::string>;
 using ResolvedConfig = std::vector<std::pair<std::string, ConfigValue>>;
+
+// Where a key of a file stands by its path, "box[0].wall", or an element, "terrain.fields[1]"; nothing where it is
+// not there. Copies share the parsed file, and keep it in memory.
+using KeyPlaces = std::function<std::optional<Place>(std::string_view path)>;
 
 class ConfigTable {
  public:
@@ -91,8 +96,10 @@ class ConfigTable {
   ProblemList& problems();
 
   // Call once everything was asked, on the root: each key never asked for is E-REF, with the
-  // nearest known name.
+  // nearest known name that its table lacks.
   void report_unknown_keys();
+  // Of the whole file.
+  KeyPlaces key_places() const;
   // Every answer given so far in the whole file, defaults included, in the order asked.
   const ResolvedConfig& resolved() const;
 

@@ -11,6 +11,16 @@ TEST_CASE("Edit distance counts single-letter changes", "[core][spelling]") {
   REQUIRE(edit_distance("grass", "gras") == 1);
 }
 
+TEST_CASE("Swapped neighbours are one slip", "[core][spelling]") {
+  CHECK(edit_distance("ab", "ba") == 1);
+  CHECK(edit_distance("lenght_m", "length_m") == 1);
+  CHECK(edit_distance("lenght_m", "height_m") == 2);
+  CHECK(edit_distance("abcd", "badc") == 2);
+  CHECK(edit_distance("ca", "abc") == 3);  // none is changed twice; 2 without that
+  CHECK(nearest_names("lenght_m", {"height_m", "length_m"}, 1) ==
+        std::vector<std::string>{"length_m"});
+}
+
 TEST_CASE("A missing name is told with those there and the likely one", "[core][spelling]") {
   const std::vector<std::string> known = {"time_s", "lat_deg", "lon_deg", "altitude_ft"};
   const std::string all = "time_s, lat_deg, lon_deg, altitude_ft";
