@@ -188,8 +188,9 @@ JsonNode JsonNode::required(const std::string& key) const {
   JsonNode node = member(key);
   if (!is_object() || node.present() || problems_->is_full()) return node;
   const bool null = of(value_).contains(key);
+  // No likely one of those there, which may all be right: check_keys tells one that is misspelt.
   problems_->error(ErrorClass::ref, place(), node.pointer_, null ? "null" : "missing",
-                   null ? "a value" : "it to be there" + names_there_text(key, keys()));
+                   null ? "a value" : "it to be there" + names_there_text("", keys()));
   return node;
 }
 
