@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <map>
+#include <tuple>
 
 #include "core/text.h"
 
@@ -18,6 +20,18 @@ std::string summary(const std::vector<Problem>& problems) {
     text += to_string(problem);
   }
   return text;
+}
+
+std::vector<Problem>& sorted_by_place(std::vector<Problem>& problems) {
+  std::map<std::string, std::size_t> met;
+  for (const Problem& problem : problems) met.try_emplace(problem.place.file, met.size());
+  const auto key = [&](const Problem& problem) {
+    return std::make_tuple(problem.code == "W-MORE", met.at(problem.place.file), problem.place.line,
+                           problem.place.column);
+  };
+  std::stable_sort(problems.begin(), problems.end(),
+                   [&](const Problem& a, const Problem& b) { return key(a) < key(b); });
+  return problems;
 }
 
 }  // namespace
@@ -79,7 +93,7 @@ Problem shortened(Problem problem) {
 }  // namespace
 
 InputError::InputError(std::vector<Problem> problems)
-    : std::runtime_error(summary(problems)), problems_(std::move(problems)) {}
+    : std::runtime_error(summary(sorted_by_place(problems))), problems_(std::move(problems)) {}
 
 bool InputError::has(ErrorClass error_class) const {
   for (const Problem& problem : problems_)

@@ -41,7 +41,8 @@ std::string to_string(const Problem& problem);
 // without an exponent from 1e-4 to 1e7.
 std::string number_text(double value);
 
-// Thrown when an input has at least one error; carries the warnings found beside it too.
+// Thrown when an input has at least one error; carries the warnings found beside it too. They are in the order
+// of their places: files as first met, then lines and columns.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Problem> problems);

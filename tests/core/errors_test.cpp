@@ -65,6 +65,35 @@ TEST_CASE("All problems of a list travel together, warnings beside errors", "[er
   }
 }
 
+TEST_CASE("What is thrown is in the order of its places, files as first met", "[errors]") {
+  ProblemList list;
+  const auto add = [&](const char* file, int line, int column, const char* field) {
+    list.error(ErrorClass::range, {file, line, column}, field, "", "");
+  };
+  add("scene.toml", 16, 1, "e");
+  add("radar.toml", 9, 1, "g");
+  add("", 0, 0, "h");
+  add("scene.toml", 3, 12, "c");
+  add("scene.toml", 3, 12, "d");
+  add("scene.toml", 3, 2, "b");
+  list.warning("ODD", {"scene.toml", 1}, "a", "", "");
+  add("radar.toml", 2, 1, "f");
+  std::string order;
+  try {
+    list.throw_if_errors();
+  } catch (const InputError& error) {
+    for (const Problem& problem : error.problems()) order += problem.field;
+    CHECK(std::string(error.what()).starts_with("scene.toml:1: W-ODD a\n"));
+  }
+  CHECK(order == "abcdefgh");
+  for (std::size_t i = 0; i < ProblemList::kMost; ++i) add("", 0, 0, "many");
+  try {
+    list.throw_if_errors();
+  } catch (const InputError& error) {
+    CHECK(error.problems().back().code == "W-MORE");
+  }
+}
+
 TEST_CASE("A hostile input cannot fill memory with problems, and errors past the cap still count",
           "[errors]") {
   ProblemList list;

@@ -109,8 +109,8 @@ def test_a_frequency_that_no_model_takes_is_told_by_its_argument():
 def test_a_library_that_is_none_is_told_beside_what_else_is_wrong(tmp_path):
     with pytest.raises(fanbeam.InputError) as told:
         fanbeam.nrcs("short_grass", 2.0, state="moist", library=tmp_path / "none.toml")
-    assert [problem.field for problem in told.value.problems] == ["grazing_rad", "", "state"]
-    assert told.value.problems[1].file == str(tmp_path / "none.toml")
+    assert [problem.field for problem in told.value.problems] == ["grazing_rad", "state", ""]
+    assert told.value.problems[2].file == str(tmp_path / "none.toml")
 
 
 @pytest.mark.parametrize(
