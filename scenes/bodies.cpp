@@ -60,12 +60,7 @@ void add_prisms(const std::vector<terrain::Prism>& prisms, terrain::Extrusion ex
 void add_box(const BoxDescription& box, const Ground& ground, const MaterialNames& names,
              core::ProblemList& problems, Bodies& bodies) {
   const auto centre_m = ground.local_m(box.at);
-  // Also of a box that stands nowhere.
-  const auto name_materials = [&] {
-    for (const std::string& material : {box.wall_material, box.roof_material})
-      names.id(material, box.place, "box material");
-  };
-  if (!centre_m) return name_materials();
+  if (!centre_m) return;
   const glm::dvec2 along =
       glm::dvec2(std::sin(box.heading_rad), std::cos(box.heading_rad)) * (box.length_m / 2);
   const glm::dvec2 side =
@@ -74,18 +69,16 @@ void add_box(const BoxDescription& box, const Ground& ground, const MaterialName
   prism.outer_m = {*centre_m - along - side, *centre_m - along + side, *centre_m + along + side,
                    *centre_m + along - side};
   const GroundSpan span = ground_under(ground, prism.outer_m);
-  if (!span.covered) {
-    problems.error(ErrorClass::range, box.place, "box",
-                   "\"" + box.name + "\" reaches beyond the terrain",
-                   "corners on the scene's terrain");
-    return name_materials();
-  }
+  if (!span.covered)
+    return problems.error(ErrorClass::range, box.place, "box",
+                          "\"" + box.name + "\" reaches beyond the terrain",
+                          "corners on the scene's terrain");
   prism.bottom_m = span.lowest_m - kFoundation_m;
   prism.top_m = ground.on_ground_m(*centre_m, box.height_m).z;
   terrain::Extrusion extrusion =
       terrain::extrude({prism}, box.name, {box.wall_material, box.roof_material}, problems);
   add_prisms({prism}, std::move(extrusion), {bodies.objects.add(box.name, ObjectKind::box)}, names,
-             box.place, "box material", bodies);
+             box.place, "box", bodies);
 }
 
 // Footprints beyond the terrain are left out with a warning.
@@ -135,7 +128,7 @@ void add_footprints(const BuildingsDescription& buildings, const Ground& ground,
     objects.push_back(bodies.objects.add(
         buildings.file.filename().string() + " " + std::to_string(i + 1), ObjectKind::building));
   add_prisms(prisms, std::move(city), std::move(objects), names, buildings.place,
-             "buildings material", bodies);
+             "buildings, the default", bodies);
 }
 
 void add_buildings(const BuildingsDescription& buildings, const Ground& ground,
@@ -177,7 +170,7 @@ void add_model(const ModelDescription& model, const Ground& ground, const Materi
     if (!overridden) id = model_materials.id(model, name);
     if (!id)
       id = names.id(overridden ? mapped->second : model.default_material, model.place,
-                    "model.materials");
+                    overridden ? "model.materials" : "model.default_material, the default");
     placed.material_of_name.push_back(*id);
   }
   for (const auto& [name, material] : model.materials) {

@@ -82,7 +82,7 @@ void add_city(const std::string& text, const BuildingsDescription& buildings, co
   terrain::check_and_clean(placed.mesh, file, problems);
   for (const std::string& surface : placed.mesh.material_names)
     placed.material_of_name.push_back(
-        names.id(material_of(surface, buildings), buildings.place, "buildings.surfaces"));
+        names.id(material_of(surface, buildings), buildings.place, "buildings, the default"));
   for (const std::string& part : placed.mesh.part_names)
     placed.object_of_part.push_back(
         bodies.objects.add(file + " " + part, renderer::ObjectKind::building));

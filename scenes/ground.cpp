@@ -38,10 +38,23 @@ std::string local_text(glm::dvec2 position_m) {
 
 }  // namespace
 
+bool MaterialNames::knows(const std::string& name) const {
+  return !sound_ || library_.index_of(name).has_value();
+}
+
+void MaterialNames::refuse(const std::string& name, const core::Place& place,
+                           const std::string& field) const {
+  refused_.insert(name);
+  library_.find(name, place, field, problems_);
+}
+
 terrain::MaterialId MaterialNames::id(const std::string& name, const core::Place& place,
                                       const std::string& field) const {
-  const std::optional<std::size_t> index = library_.find(name, place, field, problems_);
-  if (index) used_.insert(*index);
+  const std::optional<std::size_t> index = library_.index_of(name);
+  if (index)
+    used_.insert(*index);
+  else if (sound_ && !refused_.contains(name))
+    library_.find(name, place, field, problems_);
   return static_cast<terrain::MaterialId>(index.value_or(0));
 }
 
@@ -251,21 +264,15 @@ std::optional<double> Ground::post_up_m(const NaturalGround& natural, glm::dvec2
   return up_m;
 }
 
-std::optional<Ground::LandingEnd> Ground::landing_end(const std::string& name,
-                                                      const core::Place& place) const {
-  std::string known;
+std::optional<Ground::LandingEnd> Ground::landing_end(const std::string& name) const {
   for (std::size_t i = 0; i < runways_.size(); ++i) {
     for (const int end : {0, 1}) {
-      const std::string& candidate = scene_.runways[i].ends[end].name;
-      known += (known.empty() ? "\"" : ", \"") + candidate + "\"";
-      if (candidate != name) continue;
+      if (scene_.runways[i].ends[end].name != name) continue;
       const glm::dvec2 direction = end == 0 ? runways_[i].along() : -runways_[i].along();
       return LandingEnd{&runways_[i], &scene_.runways[i], end, runways_[i].threshold_m(end),
                         direction};
     }
   }
-  problems_.error(ErrorClass::ref, place, "runway", "\"" + name + "\"",
-                  known.empty() ? "a [[runway]] in this scene" : "one of the runway ends " + known);
   return std::nullopt;
 }
 
@@ -284,7 +291,7 @@ double Ground::bearing_rad(const LandingEnd& end) const {
 std::optional<glm::dvec2> Ground::local_m(const Spot& spot) const {
   glm::dvec2 position_m(0.0);
   if (spot.on_runway) {
-    const std::optional<LandingEnd> end = landing_end(spot.runway_end, spot.place);
+    const std::optional<LandingEnd> end = landing_end(spot.runway_end);
     if (!end) return std::nullopt;
     position_m = end->threshold_m + end->direction * spot.behind_threshold_m +
                  glm::dvec2(-end->direction.y, end->direction.x) * spot.left_m;

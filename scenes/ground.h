@@ -18,11 +18,16 @@
 
 namespace fanbeam::scenes {
 
-// Material ids of names, with E-REF for unknown ones.
+// Material ids of names, with E-REF for unknown ones. Of a library that is not sound, which has been told, every
+// name may have been one.
 class MaterialNames {
  public:
-  MaterialNames(const materials::MaterialLibrary& library, core::ProblemList& problems)
-      : library_(library), problems_(problems) {}
+  MaterialNames(const materials::MaterialLibrary& library, core::ProblemList& problems,
+                bool sound = true)
+      : library_(library), problems_(problems), sound_(sound) {}
+  bool knows(const std::string& name) const;
+  // Tells a name as unknown; id() tells it no more.
+  void refuse(const std::string& name, const core::Place& place, const std::string& field) const;
   terrain::MaterialId id(const std::string& name, const core::Place& place,
                          const std::string& field) const;
   // Indices in the library of the materials asked for so far.
@@ -31,7 +36,9 @@ class MaterialNames {
  private:
   const materials::MaterialLibrary& library_;
   core::ProblemList& problems_;
+  bool sound_;
   mutable std::set<std::size_t> used_;
+  mutable std::set<std::string> refused_;
 };
 
 class NaturalGround;
@@ -56,19 +63,20 @@ class Ground {
   double ellipsoidal_m(double height_m, double latitude_rad, double longitude_rad,
                        core::VerticalDatum datum) const;
 
-  // Landing on the named end: threshold and direction; E-REF when there is no such end.
+  // Landing on the named end: threshold and direction; nothing when there is no such end, which check_names
+  // (scene_names.h) tells.
   struct LandingEnd {
     const terrain::Runway* runway = nullptr;
     const RunwayDescription* description = nullptr;
     int end = 0;
     glm::dvec2 threshold_m{0.0}, direction{0.0, 1.0};
   };
-  std::optional<LandingEnd> landing_end(const std::string& name, const core::Place& place) const;
+  std::optional<LandingEnd> landing_end(const std::string& name) const;
   // The threshold's position with its ellipsoidal height, and the true bearing of landing.
   core::Geodetic threshold(const LandingEnd& end) const;
   double bearing_rad(const LandingEnd& end) const;
 
-  // Local east-north of a spot; E-RANGE outside the terrain.
+  // Local east-north of a spot; E-RANGE outside the terrain, nothing as of landing_end.
   std::optional<glm::dvec2> local_m(const Spot& spot) const;
   // The point `above_m` over the ground there.
   glm::dvec3 on_ground_m(glm::dvec2 position_m, double above_m) const;

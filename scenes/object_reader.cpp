@@ -167,6 +167,50 @@ BuildingsDescription read_buildings(ConfigTable& table, const DataSearch& search
   return buildings;
 }
 
+// A slip in the name of a table of runways: those in it are not read.
+bool is_misspelt_runway(const std::string& key) {
+  constexpr std::size_t kSlip = 2;  // edits
+  for (const std::string meant : {"runway", "airport"})
+    if (key != meant && key.size() <= meant.size() + kSlip &&
+        core::edit_distance(key, meant) <= kSlip)
+      return true;
+  return false;
+}
+
+void read_runways(ConfigTable& root, const DataSearch& search, ObjectNames& objects,
+                  SceneDescription& scene) {
+  std::set<std::string> ends;
+  const auto check_ends = [&](ConfigTable& table, std::size_t first) {
+    for (std::size_t i = first; i < scene.runways.size(); ++i)
+      for (const RunwayEndDescription& end : scene.runways[i].ends) {
+        scene.runways_known = scene.runways_known && !end.name.empty();
+        if (!end.name.empty() && !ends.insert(end.name).second)
+          table.error(core::ErrorClass::ref, "", "name \"" + end.name + "\" given twice",
+                      "a name of its own for every runway end");
+      }
+  };
+  std::vector<ConfigTable> runways = root.tables("runway", kMostRunways);
+  for (ConfigTable& table : runways) {
+    scene.runways.push_back(read_runway(table));
+    check_ends(table, scene.runways.size() - 1);
+  }
+  std::vector<ConfigTable> airports = root.tables("airport", kMostAirports);
+  const std::vector<std::string> keys = root.keys();
+  if ((root.has("runway") && runways.empty()) || (root.has("airport") && airports.empty()) ||
+      std::any_of(keys.begin(), keys.end(), is_misspelt_runway))
+    scene.runways_known = false;
+  for (ConfigTable& table : airports) {
+    const std::size_t before = scene.runways.size(), told = root.problems().all().size();
+    read_airport_table(table, search, objects, scene);
+    scene.runways_known = scene.runways_known && root.problems().all().size() == told;
+    check_ends(table, before);
+  }
+  if (scene.runways.size() > kMostRunways)
+    root.error(core::ErrorClass::limit, "airport",
+               std::to_string(scene.runways.size()) + " runways",
+               "at most " + std::to_string(kMostRunways));
+}
+
 }  // namespace
 
 Spot read_spot(ConfigTable& parent, std::string_view key) {
@@ -194,27 +238,7 @@ Spot read_spot(ConfigTable& parent, std::string_view key) {
 
 void read_objects(ConfigTable& root, const DataSearch& search, ObjectNames& objects,
                   SceneDescription& scene) {
-  std::set<std::string> ends;
-  const auto check_names = [&](ConfigTable& table, std::size_t first) {
-    for (std::size_t i = first; i < scene.runways.size(); ++i)
-      for (const RunwayEndDescription& end : scene.runways[i].ends)
-        if (!end.name.empty() && !ends.insert(end.name).second)
-          table.error(core::ErrorClass::ref, "", "name \"" + end.name + "\" given twice",
-                      "a name of its own for every runway end");
-  };
-  for (ConfigTable& table : root.tables("runway", kMostRunways)) {
-    scene.runways.push_back(read_runway(table));
-    check_names(table, scene.runways.size() - 1);
-  }
-  for (ConfigTable& table : root.tables("airport", kMostAirports)) {
-    const std::size_t before = scene.runways.size();
-    read_airport_table(table, search, objects, scene);
-    check_names(table, before);
-  }
-  if (scene.runways.size() > kMostRunways)
-    root.error(core::ErrorClass::limit, "airport",
-               std::to_string(scene.runways.size()) + " runways",
-               "at most " + std::to_string(kMostRunways));
+  read_runways(root, search, objects, scene);
   for (ConfigTable& table : root.tables("surface")) scene.surfaces.push_back(read_surface(table));
   for (ConfigTable& table : root.tables("model")) scene.models.push_back(read_model(table, search));
   for (ConfigTable& table : root.tables("box")) scene.boxes.push_back(read_box(table));
@@ -223,8 +247,11 @@ void read_objects(ConfigTable& root, const DataSearch& search, ObjectNames& obje
   HighwayPaths highway(search);
   WaypointBudget waypoints;
   std::size_t unnamed = 0;  // what has one name is one object in labels
-  for (ConfigTable& table : root.tables("target")) {
+  std::vector<ConfigTable> targets = root.tables("target");
+  bool all_named = !root.has("target") || !targets.empty();  // or left without a name, but read
+  for (ConfigTable& table : targets) {
     if (!table.has("name")) ++unnamed;
+    all_named = all_named && (!table.has("name") || table.is_text("name"));
     const std::string usual_name =
         unnamed > 1 ? "target " + std::to_string(unnamed) : std::string("target");
     scene.targets.push_back(read_target(table, usual_name, objects, highway, waypoints,
@@ -236,7 +263,9 @@ void read_objects(ConfigTable& root, const DataSearch& search, ObjectNames& obje
   for (ConfigTable& table : root.tables("interferer", kMostInterferers)) {
     scene.interferers.push_back(read_interferer(table, scene.sensor.waveform));
     const std::string& carrier = scene.interferers.back().target;
-    if (std::find(names.begin(), names.end(), carrier) == names.end() && !root.problems().is_full())
+    const bool was_told = root.problems().has_errors() && (carrier.empty() || !all_named);
+    if (std::find(names.begin(), names.end(), carrier) == names.end() && !was_told &&
+        !root.problems().is_full())
       table.error(
           core::ErrorClass::ref, "target", "\"" + carrier + "\"",
           "the name of a [[target]] that carries it" + core::names_there_text(carrier, names));

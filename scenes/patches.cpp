@@ -109,7 +109,7 @@ std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
     if (!budget.holds(patches, pavement.place, "airport")) return patches;
   }
   for (const SurfaceDescription& surface : scene.surfaces) {
-    const auto end = ground.landing_end(surface.runway_end, surface.place);
+    const auto end = ground.landing_end(surface.runway_end);
     if (!end) continue;
     const glm::dvec2 left(-end->direction.y, end->direction.x);
     const glm::dvec2 centre = end->threshold_m +

@@ -9,6 +9,7 @@
 #include "scenes/model_materials.h"
 #include "scenes/objects.h"
 #include "scenes/scene_caster.h"
+#include "scenes/scene_names.h"
 #include "scenes/scene_surfaces.h"
 #include "scenes/trajectory/trajectory_builder.h"
 #include "scenes/weather_placement.h"
@@ -40,6 +41,21 @@ std::vector<RunwayPlace> runway_places(const SceneDescription& scene, const Grou
     places.push_back(std::move(place));
   }
   return places;
+}
+
+struct Library {
+  materials::MaterialLibrary content;
+  bool is_sound = false;
+};
+
+// Empty where the reader found no file, and told that.
+Library library_of(const SceneDescription& scene, core::ProblemList& problems) {
+  if (problems.has_errors() && scene.material_library.empty()) return {};
+  core::ProblemList found;
+  Library library{materials::MaterialLibrary::from_file(scene.material_library, found)};
+  library.is_sound = !found.has_errors();
+  problems.append(found.all());
+  return library;
 }
 
 core::Geodetic ellipsoidal_origin(const SceneDescription& scene) {
@@ -76,13 +92,17 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
                                    core::ProblemList& problems) {
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
-  problems.throw_if_errors();
-  materials::MaterialLibrary library =
-      materials::MaterialLibrary::from_file(description.material_library, problems);
-  const MaterialNames names(library, problems);
+  const bool read_well = !problems.has_errors();
+  auto [library, is_sound] = library_of(description, problems);
+  const MaterialNames names(library, problems, is_sound);
+  check_names(description, names, read_well, problems);
+  if (!read_well) problems.throw_if_errors();
   SceneSetting setting{description, options,
                        terrain::LocalFrame(ellipsoidal_origin(description), description.earth)};
+  setting.description.place_of_key = nullptr;
+  const std::size_t before = problems.all().size();
   const Ground ground(description, setting.frame, names, problems);
+  const bool can_land = !problems.has_errors() || problems.all().size() == before;
   Objects objects;
   objects.add("terrain", renderer::ObjectKind::terrain);
   std::vector<terrain::SurfacePatch> patches =
@@ -94,8 +114,7 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   setting.weather = placed_weather(description, ground);
   check_losses(setting.weather, problems);
   // An approach says nothing of itself where its runway is wrong.
-  const bool on_runway = description.trajectory.kind == TrajectoryDescription::Kind::ils;
-  if (!problems.has_errors() || (!on_runway && !ground.field().height_m.empty()))
+  if (can_land || description.trajectory.kind != TrajectoryDescription::Kind::ils)
     setting.trajectory = build_trajectory(description, ground, setting.frame, problems);
   std::optional<SiteFacts> stands;
   if (!ground.field().height_m.empty()) {

@@ -88,7 +88,7 @@ struct Scene : SceneSetting {
 
 // Loads what the description names and puts the world together. Everything wrong is collected in
 // `problems` and then thrown as one InputError; warnings stay in `problems`. Errors beside those of
-// the files: E-REF for unknown materials and runway names, E-RANGE for a runway, object or
+// the files: E-REF for unknown materials and runway names, told beside what the reader found, E-RANGE for a runway, object or
 // trajectory outside the terrain and a sensor inside the ground; E-UNSUPPORTED for slices that are
 // forced on a scene they cannot show.
 std::unique_ptr<Scene> build_scene(const SceneDescription& description, const BuildOptions& options,

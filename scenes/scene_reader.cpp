@@ -308,6 +308,7 @@ SceneDescription read_scene(const fs::path& path, const SceneOptions& options,
                                : options.shipped / "materials" / "library.toml";
   root.report_unknown_keys();
   scene.resolved = root.resolved();
+  scene.place_of_key = root.key_places();
   list_files(scene);
   if (objects.used()) scene.files.push_back(objects.file());
   return scene;

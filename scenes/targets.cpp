@@ -52,7 +52,7 @@ void add_runway_reflectors(const RunwayDescription& description, const terrain::
   if (description.edge_lights)
     add_sites(terrain::edge_light_sites(runway), "runway light", description.light_rcs_m2);
   for (const std::string& name : description.approach_lights)
-    if (const auto end = ground.landing_end(name, description.place))
+    if (const auto end = ground.landing_end(name))
       add_sites(
           terrain::approach_light_sites(*end->runway, end->end, description.approach_light_slope),
           "approach light", description.light_rcs_m2);

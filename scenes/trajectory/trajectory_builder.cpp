@@ -9,19 +9,21 @@ namespace {
 std::optional<Trajectory> from_file(const SceneDescription& scene, const Ground& ground,
                                     core::ProblemList& problems) {
   const TrajectoryDescription& description = scene.trajectory;
+  core::ProblemList found;  // told whatever else is wrong in the scene
   RawTrack track =
       description.packets.protocol != nullptr
-          ? read_track_packets(description.file, description.packets, description.columns, problems)
-          : read_track_csv(description.file, description.columns, problems);
-  if (problems.has_errors()) return std::nullopt;
-  check_track(track, description.columns, description.assumptions.smoothing, problems);
+          ? read_track_packets(description.file, description.packets, description.columns, found)
+          : read_track_csv(description.file, description.columns, found);
+  if (!found.has_errors())
+    check_track(track, description.columns, description.assumptions.smoothing, found);
+  problems.append(found.all());
   if (problems.has_errors()) return std::nullopt;
   for (TrackRow& row : track.rows)
     row.position.height_m = ground.ellipsoidal_m(row.position.height_m, row.position.latitude_rad,
                                                  row.position.longitude_rad, description.datum);
   Trajectory flight = trajectory_from(track, description.assumptions, problems);
   if (!description.transplanted) return flight;
-  const auto onto = ground.landing_end(description.onto_end, description.place);
+  const auto onto = ground.landing_end(description.onto_end);
   if (!onto) return std::nullopt;
   core::Geodetic source = description.source_threshold;
   source.height_m = ground.ellipsoidal_m(source.height_m, source.latitude_rad, source.longitude_rad,
@@ -33,7 +35,7 @@ std::optional<Trajectory> from_file(const SceneDescription& scene, const Ground&
 std::optional<Trajectory> from_ils(const SceneDescription& scene, const Ground& ground,
                                    const terrain::LocalFrame& frame) {
   const TrajectoryDescription& description = scene.trajectory;
-  const auto end = ground.landing_end(description.ils_end, description.place);
+  const auto end = ground.landing_end(description.ils_end);
   if (!end) return std::nullopt;
   IlsApproach approach = description.ils;
   approach.threshold = ground.threshold(*end);

@@ -9,7 +9,7 @@
 
 namespace fanbeam::scenes {
 
-// Nothing after reporting errors to `problems`.
+// Nothing after reporting errors to `problems`, or for a runway end that is not there (scene_names.h).
 std::optional<Trajectory> build_trajectory(const SceneDescription& scene, const Ground& ground,
                                            const terrain::LocalFrame& frame,
                                            core::ProblemList& problems);

@@ -286,7 +286,7 @@ TEST_CASE("A bad waypoint of a target that swings is told with its line", "[targ
   };
   CHECK(told("\"36\", behind_threshold_m = 100.0, left_m = 2600.0") ==
         "E-RANGE target[0].waypoint[1].at");
-  CHECK(told("\"09\", behind_threshold_m = 100.0") == "E-REF runway");
+  CHECK(told("\"09\", behind_threshold_m = 100.0") == "E-REF target[0].waypoint[1].at.runway");
 }
 
 // Signals refused it later, without the target and its line.
