@@ -109,7 +109,8 @@ def test_maps_and_detections_of_a_waveform_without_them_are_refused(lone_target)
 
 def test_a_value_of_another_type_is_told_with_its_field(lone_target):
     for field, value in (("seed", "x"), ("receivers", 1.5), ("real", "yes"), ("unfold", 1), ("waveform", 5),
-                         ("radar", 3), ("numbers", 3), ("want", 3)):
+                         ("radar", 3), ("numbers", 3), ("numbers", np.array([1.0, 2.0])), ("numbers", []),
+                         ("want", 3)):
         with pytest.raises(TypeError, match=f"{field}: expected "):
             fanbeam.signal.frame(lone_target, 0, **{field: value})
     with pytest.raises(TypeError, match="bandwidth: expected a number, not 'x'"):

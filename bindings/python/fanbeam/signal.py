@@ -111,7 +111,7 @@ def frame(
         "adc_bits": adc_bits,
         "unfold": unfold,
         "seed": seed,
-        "numbers": _numbers(numbers or {}),
+        "numbers": _numbers({} if numbers is None else numbers),
     }
     told = {name: value for name, value in told.items() if value is not None}
     made = _signal.frame(scene._core, scene._core.frame_number(index), products, told)
