@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <system_error>
 
 #include "core/codec/image_codec_private.h"
 #include "core/colour_picture.h"
@@ -28,11 +29,11 @@ std::size_t cells(int columns, int rows) {
 const ImageCodec& load_codec() {
   constexpr const char* kLibrary = "libfanbeam-pictures.so.0";
   void* const library = dlopen(kLibrary, RTLD_LAZY | RTLD_LOCAL);
-  void* const entry = library != nullptr ? dlsym(library, "fanbeam_image_codec_1") : nullptr;
+  void* const entry = library != nullptr ? dlsym(library, "fanbeam_image_codec_2") : nullptr;
   if (entry == nullptr)
     throw_input_error(ErrorClass::io, Place{kLibrary}, "", dlerror(),
                       "the part of fanbeam that reads and writes pictures");
-  return *reinterpret_cast<decltype(&fanbeam_image_codec_1)>(entry)();
+  return *reinterpret_cast<decltype(&fanbeam_image_codec_2)>(entry)();
 }
 
 const ImageCodec& codec() {
@@ -68,22 +69,27 @@ void check_size(const Place& place, std::int64_t columns, std::int64_t rows,
                       "at most " + std::to_string(kMostValues) + " values");
 }
 
+// By its first bytes, whatever it is called.
 std::unique_ptr<ImageFile> open(const std::filesystem::path& path) {
   const Place place{path.string()};
-  if (!std::filesystem::is_regular_file(path))
-    throw_input_error(ErrorClass::io, place, "", "missing", "an image file");
-  check_png(path, [&](const ClaimedSize& claimed) {
+  std::error_code status;
+  if (!std::filesystem::is_regular_file(path, status))
+    throw_input_error(ErrorClass::io, place, "", status ? status.message() : "not a file",
+                      "an image file");
+  const bool is_png = check_png(path, [&](const ClaimedSize& claimed) {
     constexpr std::int64_t kLongestSide = 1'000'000;  // of the PNG library
     check_size(place, claimed.columns, claimed.rows, 1);
     if (const std::int64_t side = std::max(claimed.columns, claimed.rows); side > kLongestSide)
       throw_input_error(ErrorClass::limit, place, "image size", std::to_string(side),
                         "at most " + std::to_string(kLongestSide) + " on a side");
   });
-  check_exr(path, [&](const ClaimedSize& claimed) {
+  const bool is_exr = !is_png && check_exr(path, [&](const ClaimedSize& claimed) {
     check_size(place, claimed.columns, claimed.rows, 1);
   });
+  if (!is_png && !is_exr)
+    throw_input_error(ErrorClass::parse, place, "", "another format", "a PNG or OpenEXR image");
   std::string fault;
-  std::unique_ptr<ImageFile> file = codec().open(path.string(), fault);
+  std::unique_ptr<ImageFile> file = codec().open(path.string(), is_png ? "png" : "openexr", fault);
   if (!file) throw_input_error(ErrorClass::parse, place, "", fault, "an image file");
   return file;
 }

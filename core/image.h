@@ -50,9 +50,9 @@ ImageSize image_size(const std::filesystem::path& path);
 // The texts stored with an image. Throws InputError E-IO or E-PARSE.
 Metadata read_metadata(const std::filesystem::path& path);
 
-// Any format OpenImageIO reads. Floats come back as they are, whole numbers as stored: 0 to 255 for
+// PNG and OpenEXR, told by the first bytes. Floats come back as they are, whole numbers as stored: 0 to 255 for
 // 8 bits, 0 to 65535 for 16; palettes as colours. Throws InputError: E-IO (missing), E-PARSE
-// (damaged), E-LIMIT before allocation above 32 million values.
+// (damaged, or another format), E-LIMIT before allocation above 32 million values.
 Image read_image(const std::filesystem::path& path);
 
 // "OpenImageIO 2.4.7.1": what writes pictures, for records.

@@ -64,10 +64,13 @@ class Codec final : public ImageCodec {
     return {reinterpret_cast<const char*>(buffer.data()), buffer.size()};
   }
 
-  std::unique_ptr<ImageFile> open(const std::string& path, std::string& fault) const override {
-    std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
-    if (!input) {
-      fault = OIIO::geterror();
+  // Of one format: else every plugin there is would try a file that is none of its own.
+  std::unique_ptr<ImageFile> open(const std::string& path, const std::string& format,
+                                  std::string& fault) const override {
+    std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
+    OIIO::ImageSpec spec;
+    if (!input || !input->open(path, spec)) {
+      fault = input ? input->geterror() : OIIO::geterror();
       return nullptr;
     }
     return std::make_unique<OpenFile>(std::move(input));
@@ -77,7 +80,7 @@ class Codec final : public ImageCodec {
 }  // namespace
 }  // namespace fanbeam::core
 
-const fanbeam::core::ImageCodec* fanbeam_image_codec_1() {
+const fanbeam::core::ImageCodec* fanbeam_image_codec_2() {
   static const fanbeam::core::Codec codec;
   return &codec;
 }

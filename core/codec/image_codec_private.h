@@ -44,12 +44,13 @@ class ImageCodec {
   virtual ~ImageCodec() = default;
   // The bytes of a file; none with a `fault`.
   virtual std::string encode(const PixelsToEncode& pixels, std::string& fault) const = 0;
-  // Null with a `fault`.
-  virtual std::unique_ptr<ImageFile> open(const std::string& path, std::string& fault) const = 0;
+  // `format` by OpenImageIO's name, whatever the file is called: "png", "openexr". Null with a `fault`.
+  virtual std::unique_ptr<ImageFile> open(const std::string& path, const std::string& format,
+                                          std::string& fault) const = 0;
 };
 
 }  // namespace fanbeam::core
 
 // The library's one symbol. Its number rises with every change of what stands above: another version's library is
 // none.
-extern "C" [[gnu::visibility("default")]] const fanbeam::core::ImageCodec* fanbeam_image_codec_1();
+extern "C" [[gnu::visibility("default")]] const fanbeam::core::ImageCodec* fanbeam_image_codec_2();

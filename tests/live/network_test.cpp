@@ -2,6 +2,7 @@
 #include "live/network.h"
 
 #include <catch2/catch.hpp>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <thread>
 #include <utility>
@@ -11,10 +12,13 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
 
+#include "core/files.h"
+#include "core/picture_bytes.h"
 #include "feeds/native_fdm.h"
 #include "live/channel.h"
 #include "tests/feeds/native_fdm_bytes.h"
 #include "tests/live/live_scene.h"
+#include "tests/needed_program.h"
 #include "tests/processor_time.h"
 
 using namespace fanbeam;
@@ -324,14 +328,7 @@ TEST_CASE(
   for (const char* target : {"/stream", "/stream/bscope?x=1"}) {
     const std::string told = answer_to(station, "GET " + std::string(target) + ask);
     CHECK(told.find("multipart/x-mixed-replace; boundary=frame") != std::string::npos);
-    const std::size_t begin = told.find("\xff\xd8\xff");
-    REQUIRE(begin != std::string::npos);
-    station.folder.write("part.jpg", told.substr(begin));
-    const std::vector<double> shown =
-        core::read_image(station.folder.path() / "part.jpg").layers.at(0).values;
-    REQUIRE(shown.size() == frame->bscope.pixels.size());
-    for (std::size_t i = 0; i < shown.size(); ++i)
-      CHECK(shown[i] == Approx(frame->bscope.pixels[i]).epsilon(0.0).margin(3.0));
+    CHECK(told.find(core::jpeg_bytes(frame->bscope)) != std::string::npos);
   }
   const std::string told = answer_to(station, "GET /frames" + ask);
   const std::string message = live::message_of(*frame);
@@ -341,6 +338,24 @@ TEST_CASE(
   CHECK(answer_to(station, "GET /stream/../etc" + ask).starts_with("HTTP/1.1 404"));
   CHECK(answer_to(station, "POST /stream" + ask).starts_with("HTTP/1.1 415"));
   wait_for([&] { return station.network.clients() == 0; });  // each left
+}
+
+TEST_CASE("JPEG pictures show what the frame does", "[network]") {
+  if (!tests::needed_program("ffmpeg")) return;
+  core::Picture8 picture{64, 32, std::vector<std::uint8_t>(64 * 32)};
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i)
+    picture.pixels[i] = static_cast<std::uint8_t>(64 + 2 * (i % 64));
+  const tests::TemporaryFolder folder;
+  const std::string file = folder.write("part.jpg", core::jpeg_bytes(picture)).string();
+  const std::string decode =
+      "ffmpeg -v error -i " + file + " -f rawvideo -pix_fmt gray " + file + ".raw </dev/null";
+  REQUIRE(std::system(decode.c_str()) == 0);
+  const std::string shown = core::read_file(file + ".raw", 1U << 20U);
+  REQUIRE(shown.size() == picture.pixels.size());
+  // Within what quality 90 takes away.
+  for (std::size_t i = 0; i < shown.size(); ++i)
+    CHECK(static_cast<unsigned char>(shown[i]) ==
+          Approx(picture.pixels[i]).epsilon(0.0).margin(3.0));
 }
 
 TEST_CASE("With a token neither page, picture, stream nor socket opens without it",
