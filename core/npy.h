@@ -8,6 +8,7 @@
 #include <complex>
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -35,10 +36,13 @@ struct NpyHeader {
 // (2^40 values).
 NpyHeader read_npy_header(const std::filesystem::path& path);
 
+// The largest that a sample holds.
+inline constexpr double kMostFloat = static_cast<double>(std::numeric_limits<float>::max());
+
 // `count` values from the one with number `first` on, as complex numbers; E-NONFINITE for one that is not
-// finite. The header must be the file's.
+// finite, E-RANGE for one with a part beyond `largest`, either sign. The header must be the file's.
 std::vector<std::complex<float>> read_npy(const std::filesystem::path& path,
                                           const NpyHeader& header, std::size_t first,
-                                          std::size_t count);
+                                          std::size_t count, double largest = kMostFloat);
 
 }  // namespace fanbeam::core

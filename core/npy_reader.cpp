@@ -32,11 +32,19 @@ constexpr std::array<std::pair<std::string_view, std::size_t>, 5> kNpyTypes = {
   throw_input_error(kind, Place{path.string()}, field, value, expected);
 }
 
-// The text behind 'key': up to the end of the value; nothing where it is missing.
+// The text behind 'key': up to the end of the dictionary; nothing where it is missing. Other texts are
+// stepped over whole: what looks like a key in one is none.
 std::string_view behind(std::string_view dictionary, std::string_view key) {
-  const std::size_t at = dictionary.find("'" + std::string(key) + "':");
-  return at == std::string_view::npos ? std::string_view()
-                                      : trimmed(dictionary.substr(at + key.size() + 3));
+  const std::string wanted = "'" + std::string(key) + "':";
+  for (std::size_t at = 0; at < dictionary.size(); ++at) {
+    const std::string_view rest = dictionary.substr(at);
+    if (rest.starts_with(wanted)) return trimmed(rest.substr(wanted.size()));
+    if (rest.front() != '\'' && rest.front() != '"') continue;
+    const std::size_t length = rest.find(rest.front(), 1);
+    if (length == std::string_view::npos) break;
+    at += length;
+  }
+  return {};
 }
 
 // Of a text the text alone, of a list of fields its beginning.
@@ -81,11 +89,11 @@ void check_size(const NpyHeader& header, const fs::path& path, std::uintmax_t fi
                std::to_string(needed) + " bytes, as the shape says");
 }
 
-std::complex<float> npy_value(std::string_view type, const char* bytes) {
+std::complex<double> npy_value(std::string_view type, const char* bytes) {
   const auto part = [bytes]<class T>(T, std::size_t place) {
     T value;
     std::memcpy(&value, bytes + place * sizeof(T), sizeof(T));
-    return static_cast<float>(value);
+    return static_cast<double>(value);
   };
   if (type == "<c8") return {part(0.0F, 0), part(0.0F, 1)};
   if (type == "<c16") return {part(0.0, 0), part(0.0, 1)};
@@ -141,7 +149,7 @@ NpyHeader read_npy_header(const fs::path& path) {
 }
 
 std::vector<std::complex<float>> read_npy(const fs::path& path, const NpyHeader& header,
-                                          std::size_t first, std::size_t count) {
+                                          std::size_t first, std::size_t count, double largest) {
   std::ifstream stream(path, std::ios::binary);
   stream.seekg(static_cast<std::streamoff>(header.begin_byte + first * header.value_bytes));
   std::string bytes(count * header.value_bytes, '\0');
@@ -149,10 +157,18 @@ std::vector<std::complex<float>> read_npy(const fs::path& path, const NpyHeader&
   if (!stream) refuse_npy(ErrorClass::io, path, "values", "read failed", "a readable file");
   std::vector<std::complex<float>> values(count);
   for (std::size_t i = 0; i < count; ++i) {
-    values[i] = npy_value(header.type, bytes.data() + i * header.value_bytes);
-    if (!std::isfinite(values[i].real()) || !std::isfinite(values[i].imag()))
-      refuse_npy(ErrorClass::nonfinite, path, "value " + std::to_string(first + i), "not finite",
-                 "finite samples");
+    const std::complex<double> value =
+        npy_value(header.type, bytes.data() + i * header.value_bytes);
+    const auto refuse = [&](ErrorClass kind, const std::string& found, const std::string& wanted) {
+      refuse_npy(kind, path, "value " + std::to_string(first + i), found, wanted);
+    };
+    for (const double part : {value.real(), value.imag()}) {
+      if (!std::isfinite(part)) refuse(ErrorClass::nonfinite, "not finite", "finite samples");
+      if (std::abs(part) > largest)
+        refuse(ErrorClass::range, number_text(part),
+               number_text(-largest) + " to " + number_text(largest));
+    }
+    values[i] = static_cast<std::complex<float>>(value);
   }
   return values;
 }

@@ -16,6 +16,8 @@ constexpr std::array<const char*, 6> kAxes = {"frame",    "chirp",   "transmitte
                                               "receiver", "channel", "sample"};
 constexpr std::size_t kMostRecordedFrames = 1'000'000;
 constexpr std::size_t kMostFrameValues = std::size_t{1} << 28U;
+// (1e10 * 2^28)^2 is 7e36.
+constexpr double kMostSample_sqrtW = 1e10;
 
 bool has(const std::vector<std::string>& axes, const char* name) {
   return std::find(axes.begin(), axes.end(), name) != axes.end();
@@ -118,6 +120,10 @@ void SampleFiles::correct(core::ProblemList& problems) {
   for (const std::complex<double>& known :
        channel_factors(layout_.channel_gains_dB, layout_.channel_phases_rad, shape_.channels))
     corrections_.push_back(static_cast<std::complex<float>>(layout_.scale_sqrtW / known));
+  double largest = 0.0;
+  for (const std::complex<float>& one : corrections_)
+    largest = std::max(largest, std::abs(static_cast<std::complex<double>>(one)));
+  most_value_ = std::min(kMostSample_sqrtW / largest, core::kMostFloat);
 }
 
 bool SampleFiles::fits(const File& file, core::ProblemList& problems) const {
@@ -177,7 +183,8 @@ signal::FloatCube SampleFiles::frame(int index) const {
   // Where frames are the outermost axis one alone is read.
   const bool outermost = layout_.axes.front() == "frame";
   const std::size_t count = file->header.count() / (outermost ? frames.length : 1);
-  const auto values = core::read_npy(file->path, file->header, outermost ? left * count : 0, count);
+  const auto values =
+      core::read_npy(file->path, file->header, outermost ? left * count : 0, count, most_value_);
   const std::size_t first = outermost ? 0 : left * frames.stride;
   const bool turns = in_turn(layout_.axes, slots_);
   signal::FloatCube cube(shape_);

@@ -10,7 +10,8 @@
 // Values times `scale_sqrtW` are square roots of watts at a receiver's port: it changes the powers that
 // are told, never what is found. `conjugate` is for mixers that give received minus
 // transmitted, where the beat of rising chirps falls with range. Falling chirps cannot be read: conjugated or real, they
-// have the sign of speeds and azimuths wrong.
+// have the sign of speeds and azimuths wrong. Parts of samples are within 1e10 sqrt(W), far above any receiver's: their
+// sum over a frame, squared, still is a float.
 #pragma once
 
 #include <complex>
@@ -40,6 +41,8 @@ class SampleFiles {
               SampleLayout layout);
 
   int frames() const { return frames_; }
+  // How far from 0 a value in the files may be, before any scale.
+  double most_value() const { return most_value_; }
   signal::FloatCube frame(int index) const;
 
  private:
@@ -58,6 +61,7 @@ class SampleFiles {
   signal::CubeShape shape_;
   int transmitters_ = 1, receivers_ = 1, slots_ = 1;
   bool real_ = false;
+  double most_value_ = 0.0;
   int frames_ = 0;
 };
 

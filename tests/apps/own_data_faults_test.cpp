@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "core/constants.h"
 #include "core/npy.h"
@@ -441,6 +442,33 @@ TEST_CASE("All files of samples are looked at before the first is tracked", "[tr
   for (const char* name : {"frame_2.npy: E-NONFINITE", "frame_10.npy: E-NONFINITE"})
     CHECK(values.find(name) != std::string::npos);
   CHECK(values.find("frame_3.npy") == std::string::npos);
+  for (const int number : {2, 10}) write(number, 4, 0.0F);
+  write(3, 4, 3e38F);
+  CHECK(told().find("frame_3.npy: E-RANGE value 7999 = 3") != std::string::npos);
+}
+
+// It was the map's NaN that was told, without file or value.
+TEST_CASE("Samples that would overflow are refused, as they are with their scale", "[track]") {
+  const tests::TemporaryFolder folder;
+  const fs::path out = folder.path() / "out", samples = folder.path() / "one.npy";
+  const auto run = [&](float value, const std::string& scale) {
+    const fs::path radar =
+        folder.write("radar.toml", kRadar + ("[samples]\nscale_sqrtW = " + scale + "\n"));
+    std::vector<std::complex<float>> tone;
+    for (int i = 0; i < 8000; ++i)
+      tone.push_back(std::polar(value, 0.5F * static_cast<float>(i % 100)));
+    core::write_npy(samples, {4, 20, 100}, tone);
+    return track(samples, out, "--radar " + tests::quoted(radar));
+  };
+  for (const auto& [value, scale] : {std::pair{2e10F, "1"}, std::pair{20.0F, "1e9"}}) {
+    const auto refused = run(value, scale);
+    INFO(refused.output);
+    CHECK(refused.exit_code == 3);
+    CHECK(refused.output.find("one.npy: E-RANGE value 0 = ") != std::string::npos);
+  }
+  const auto taken = run(9.9e9F, "1");
+  INFO(taken.output);
+  CHECK(taken.exit_code == 0);
 }
 
 TEST_CASE("Places on a line have the pitch between them, whatever it is", "[fmcw]") {

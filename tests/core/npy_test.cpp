@@ -91,6 +91,27 @@ TEST_CASE("What was written as a NumPy file is read back, from any place on", "[
         std::vector<std::complex<float>>{2.0F, -1.0F});
 }
 
+TEST_CASE("A text of a NumPy header that looks like a key is none", "[npy]") {
+  const TemporaryFolder folder;
+  const auto file = npy_file(folder,
+                             "{\"note\": \"'descr': '<c8', 'shape': (9,)\", 'descr': '<i2', "
+                             "'fortran_order': False, 'shape': (2,)}",
+                             std::string("\x02\x00\xff\xff", 4));
+  const NpyHeader header = read_npy_header(file);
+  CHECK(header.type == "<i2");
+  CHECK(header.shape == std::vector<std::size_t>{2});
+}
+
+TEST_CASE("A NumPy value beyond the largest is told with its place and sign", "[npy]") {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "cube.npy";
+  write_npy(file, {2}, std::vector<std::complex<float>>{{1, 2}, {3, -4}});
+  const NpyHeader header = read_npy_header(file);
+  CHECK(read_npy(file, header, 0, 2, 4.0).size() == 2);
+  CHECK_THROWS_WITH(read_npy(file, header, 1, 1, 3.5),
+                    Catch::Contains("E-RANGE value 1 = -4: expected -3.5 to 3.5"));
+}
+
 TEST_CASE("NumPy files that lie, are cut or hold what is no number are refused", "[npy]") {
   const TemporaryFolder folder;
   CHECK(code_of(folder.path() / "none.npy") == "E-IO");
@@ -116,6 +137,14 @@ TEST_CASE("NumPy files that lie, are cut or hold what is no number are refused",
   CHECK(with("{'descr': '<f4', 'fortran_order': False, 'shape': (1,)}",
              std::string("\x00\x00\xc0\x7f", 4)) == "E-NONFINITE");
   CHECK(with("{}") == "E-UNSUPPORTED");
+  const std::string huge_f8("\x9c\x75\x00\x88\x3c\xe4\x37\x7e", 8);  // 1e300
+  CHECK_THROWS_WITH(
+      [&] {
+        const auto file =
+            npy_file(folder, "{'descr': '<f8', 'fortran_order': False, 'shape': (1,)}", huge_f8);
+        read_npy(file, read_npy_header(file), 0, 1);
+      }(),
+      Catch::Contains("E-RANGE value 0 = 1e+300: expected -3.4"));
   std::ofstream(folder.path() / "text.npy") << "not a NumPy file";
   CHECK(code_of(folder.path() / "text.npy") == "E-PARSE");
 }

@@ -72,16 +72,17 @@ std::vector<fs::path> numpy_files_in(const fs::path& folder) {
 }
 
 // Found when its turn comes, a value in the last of many files would cost the tracks of all before it.
-void check_values(const std::vector<fs::path>& files) {
+void check_values(const std::vector<fs::path>& files, double most_value) {
   constexpr std::size_t kValuesAtOnce = std::size_t{1} << 20U;
   core::ProblemList problems;
   for (const fs::path& file : files) {
     if (problems.is_full()) break;
     try {
       const core::NpyHeader header = core::read_npy_header(file);
-      const std::size_t count = header.type == "<i2" ? 0 : header.count();
+      const bool any_fits = header.type == "<i2" && most_value >= 32768.0;
+      const std::size_t count = any_fits ? 0 : header.count();
       for (std::size_t from = 0; from < count; from += kValuesAtOnce)
-        core::read_npy(file, header, from, std::min(kValuesAtOnce, count - from));
+        core::read_npy(file, header, from, std::min(kValuesAtOnce, count - from), most_value);
     } catch (const core::InputError& error) {
       problems.append(error.problems());
     }
@@ -103,7 +104,7 @@ class SampleSource : public MeasuredSource {
                                return radar;
                              })),
         files_(files, radar_, settings_.layout) {
-    check_values(files);
+    check_values(files, files_.most_value());
     name = core::safe_word(fs::absolute(path).lexically_normal().stem().string());
     kind = "samples";
     // Several frames in a file have no times there.
