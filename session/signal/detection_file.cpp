@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "session/signal/detection_readers.h"
+#include "session/signal/file_order.h"
 #include "session/signal/recorded_moments.h"
 #include "session/signal/sources/measured_source.h"
 #include "signal/detection/clusters.h"
@@ -87,8 +88,8 @@ FilesOfDetections files_of_detections(const fs::path& folder) {
   }
   // Somebody's notes.
   if (!is_below && !sample_files_in(folder).empty()) files.tables.clear();
-  std::sort(files.json.begin(), files.json.end());
-  std::sort(files.tables.begin(), files.tables.end());
+  std::sort(files.json.begin(), files.json.end(), comes_before);
+  std::sort(files.tables.begin(), files.tables.end(), comes_before);
   return files;
 }
 
@@ -98,7 +99,7 @@ void refuse_lone_tables(const FilesOfDetections& files, core::ProblemList& probl
   for (const fs::path& table : files.tables) {
     const fs::path beside = fs::path(table).replace_extension(".json");
     if (problems.all().size() >= kMostDetectionProblems) return;
-    if (!std::binary_search(files.json.begin(), files.json.end(), beside))
+    if (!std::binary_search(files.json.begin(), files.json.end(), beside, comes_before))
       problems.error(ErrorClass::ref, {table.string()}, "detections", "a table among files *.json",
                      beside.filename().string() + " beside it, or tables alone");
   }

@@ -10,8 +10,8 @@
 // forward alone. What `fanbeam fmcw` writes beside these (frame, forward_m, right_m) is passed over,
 // any other member is E-REF.
 // A folder: the files *.json in it (but run.json and timing.json), or in detections/ below it, in the
-// order of their names; where there are none, the files *.csv likewise, but not beside samples. A table
-// among JSON without a file of its name in JSON is E-REF.
+// order of the numbers in their names (file_order.h); where there are none, the files *.csv likewise, but
+// not beside samples. A table among JSON without a file of its name in JSON is E-REF.
 // A table does not tell the radar's velocity: it is that of the run.json of `fanbeam fmcw` in the folder
 // above (recorded_moments.h), which also tells the time of a table without rows (without it, no frame) and
 // may not contradict a row's (E-TIME).

@@ -1,8 +1,9 @@
-// Which files of a folder are frames of samples, and in what order.
+// Which files of a folder are frames of samples or detections, and in what order.
 #include <catch2/catch.hpp>
 #include <string>
 #include <vector>
 
+#include "session/signal/detection_file.h"
 #include "session/signal/sources/measured_source.h"
 #include "tests/scenes/scene_folder.h"
 
@@ -35,6 +36,23 @@ TEST_CASE("Files of samples come in the order of their numbers, with zeros in fr
   const std::vector<std::string> finer = {"0.1.npy", "0.105.npy", "0.11.npy", "0.125.npy",
                                           "0.15.npy"};
   CHECK(frames_of({finer[4], finer[3], finer[2], finer[1], finer[0]}) == finer);
+}
+
+// As text 100000 comes before 99999, and time went back there.
+TEST_CASE("Files of detections come in the order of their numbers, like those of samples",
+          "[track]") {
+  const tests::TemporaryFolder folder;
+  const auto one = [&](const std::string& name, const std::string& time_s) {
+    folder.write(name + ".json", "{\"time_s\": " + time_s + ", \"detections\": []}");
+    folder.write(name + ".csv", "");
+  };
+  one("99999", "1.0");
+  one("100000", "2.0");
+  core::ProblemList problems;
+  const auto frames = session::read_detections(folder.path(), problems);
+  problems.throw_if_errors();
+  REQUIRE(frames.size() == 2);
+  CHECK(frames[1].time_s == 2.0);
 }
 
 TEST_CASE("Only the later stages of a frame that is there are left out", "[track]") {

@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <string_view>
 #include <system_error>
 
 #include "core/text.h"
 #include "session/signal/chain.h"
+#include "session/signal/file_order.h"
 #include "session/signal/radar_file.h"
 #include "session/signal/recorded_moments.h"
 #include "session/signal/sample_file.h"
@@ -25,49 +25,13 @@ bool is_later_stage(const fs::path& file) {
          fs::is_regular_file(file.parent_path() / (stem.substr(0, at) + ".npy"), status);
 }
 
-bool is_digit(char one) { return one >= '0' && one <= '9'; }
-
-// The number that begins at `at`, without zeros in front; `at` is then behind it.
-std::string_view number_at(std::string_view text, std::size_t& at) {
-  std::size_t first = at;
-  while (at < text.size() && is_digit(text[at])) ++at;
-  while (first < at && text[first] == '0') ++first;
-  return text.substr(first, at - first);
-}
-
-// In a number behind a point between digits: a decimal, which goes digit by digit.
-bool is_decimal(std::string_view text, std::size_t at) {
-  while (at > 0 && is_digit(text[at - 1])) --at;
-  return at >= 2 && text[at - 1] == '.' && is_digit(text[at - 2]);
-}
-
-// "frame_2" comes before "frame_10", as its number does, and "0.15" before "0.2".
-bool comes_before(std::string_view a, std::string_view b) {
-  std::size_t i = 0, j = 0;
-  while (i < a.size() && j < b.size()) {
-    if (is_digit(a[i]) && is_digit(b[j]) && !is_decimal(a, i) && !is_decimal(b, j)) {
-      const std::string_view left = number_at(a, i), right = number_at(b, j);
-      if (left.size() != right.size()) return left.size() < right.size();
-      if (left != right) return left < right;
-    } else {
-      if (a[i] != b[j]) return a[i] < b[j];
-      ++i;
-      ++j;
-    }
-  }
-  if (i < a.size() || j < b.size()) return j < b.size();
-  return a < b;
-}
-
 std::vector<fs::path> numpy_files_in(const fs::path& folder) {
   std::error_code status;
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder, status))
     if (entry.path().extension() == ".npy" && !is_later_stage(entry.path()))
       files.push_back(entry.path());
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    return comes_before(a.filename().string(), b.filename().string());
-  });
+  std::sort(files.begin(), files.end(), comes_before);
   return files;
 }
 
