@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <system_error>
 
 #include "core/files.h"
 #include "core/image_compare.h"
@@ -98,7 +99,8 @@ bool compare_files(const fs::path& a, const fs::path& b, const fs::path& map, bo
     same = judge(a, difference, options, quiet) && same;
     equal = equal && difference.different == 0;
   }
-  if (map.empty() || (equal && !always && !fs::exists(map))) return same;
+  std::error_code status;
+  if (map.empty() || (equal && !always && !fs::exists(map, status))) return same;
   core::write_png(
       map, session::difference_map(image_a, image_b, a, {b.filename().string() + ": B against A"}),
       {{"Software", "fanbeam " + session::version_text() + " " + session::commit_text()}});
@@ -109,8 +111,9 @@ bool compare_files(const fs::path& a, const fs::path& b, const fs::path& map, bo
 // Where the map of two images goes.
 fs::path single_map(const CompareOptions& options) {
   const fs::path map = options.heat_map;
+  std::error_code status;
   if (map.empty()) return map;
-  if (fs::is_directory(map)) return heat_map_path(map, fs::path(options.b).filename());
+  if (fs::is_directory(map, status)) return heat_map_path(map, fs::path(options.b).filename());
   if (map.extension() != ".png")
     core::throw_input_error(core::ErrorClass::range, "--heat-map", "\"" + options.heat_map + "\"",
                             "a folder, or a file that ends in .png");
@@ -123,17 +126,24 @@ void refuse_map_among(const fs::path& image_or_folder, const fs::path& map) {
                             "a place outside " + image_or_folder.string() + ", which is compared");
 }
 
+// What cannot be read is told when all others are compared.
 bool compare_folders(const fs::path& a, const fs::path& b, const CompareOptions& options,
                      bool quiet) {
   const std::set<fs::path> in_a = measure::image_files_below(a);
   const std::set<fs::path> in_b = measure::image_files_below(b);
   bool same = true;
   std::size_t pairs = 0;
+  core::ProblemList unreadable;
   for (const fs::path& name : in_a) {
     if (in_b.contains(name)) {
       ++pairs;
       const fs::path map = options.heat_map.empty() ? "" : heat_map_path(options.heat_map, name);
-      same = compare_files(a / name, b / name, map, false, options, quiet) && same;
+      try {
+        same = compare_files(a / name, b / name, map, false, options, quiet) && same;
+      } catch (const core::InputError& error) {
+        same = false;
+        unreadable.append(error.problems());
+      }
     } else {
       same = false;
       fmt::print("DIFFER {}: only in {}\n", core::printable_text(name.string()), a.string());
@@ -151,7 +161,11 @@ bool compare_folders(const fs::path& a, const fs::path& b, const CompareOptions&
                                 : "no name in both",
                             "PNG or EXR images, of the same names below both folders");
   if (!quiet || !same)
-    fmt::print("{} pairs of images {}\n", pairs, same ? "agree" : "compared, some differ");
+    fmt::print("{} pairs of images {}\n", pairs,
+               same                      ? "agree"
+               : unreadable.has_errors() ? "found, some could not be compared"
+                                         : "compared, some differ");
+  unreadable.throw_if_errors();
   return same;
 }
 
@@ -168,9 +182,9 @@ int compare(const CompareOptions& options, const CommonOptions& common) {
   const fs::path b = options.b;
   core::ProblemList missing;
   for (const fs::path& path : {a, b})
-    if (!fs::exists(path))
-      missing.error(core::ErrorClass::io, core::Place{path.string()}, "", "missing",
-                    "an image or a folder");
+    if (std::error_code status; !fs::exists(path, status))
+      missing.error(core::ErrorClass::io, core::Place{path.string()}, "",
+                    status ? status.message() : "missing", "an image or a folder");
   missing.throw_if_errors();
   if (fs::is_directory(a) != fs::is_directory(b))
     core::throw_input_error(core::ErrorClass::ref, core::Place{b.string()}, "kind",

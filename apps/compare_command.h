@@ -27,8 +27,9 @@ std::filesystem::path heat_map_path(const std::filesystem::path& folder,
 
 // 0 when every pair is within the tolerance, 1 otherwise. The map of two images is always drawn; a
 // map that an earlier comparison of folders left for a pair that is equal now is drawn anew. Throws
-// InputError, beside what reading and writing throw: E-REF for a file and a folder, E-RANGE for a
-// map that is no PNG, E-PATH for maps on or among the images compared.
+// InputError, beside what reading and writing throw (of folders after all other pairs are compared, with all of
+// them): E-REF for a file and a folder, E-RANGE for a map that is no PNG, E-PATH for maps on or among the images
+// compared.
 int compare(const CompareOptions& options, const CommonOptions& common);
 CLI::App& add_compare_command(CLI::App& program, CompareOptions& options);
 

@@ -8,8 +8,8 @@
 
 namespace fanbeam::measure {
 
-// PNG and EXR below it, relative to it; none where there is no such folder. Throws InputError E-IO
-// where it cannot be read.
+// PNG and EXR below it, relative to it, links that lead nowhere too (whoever reads them tells); none where
+// there is no such folder. Throws InputError E-IO where it cannot be read.
 inline std::set<std::filesystem::path> image_files_below(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   std::set<fs::path> images;
@@ -17,7 +17,8 @@ inline std::set<std::filesystem::path> image_files_below(const std::filesystem::
   for (fs::recursive_directory_iterator entry(folder, status), end; !status && entry != end;
        entry.increment(status)) {
     const fs::path ending = entry->path().extension();
-    if (entry->is_regular_file() && (ending == ".png" || ending == ".exr"))
+    std::error_code dangling;
+    if ((ending == ".png" || ending == ".exr") && !entry->is_directory(dangling))
       images.insert(entry->path().lexically_relative(folder));
   }
   if (status && fs::exists(folder))

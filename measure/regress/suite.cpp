@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <limits>
 #include <set>
+#include <system_error>
 
 #include "core/files.h"
 #include "core/text.h"
@@ -236,9 +237,10 @@ std::string file_name_of(const std::string& text) {
 }
 
 Suite read_suite(const fs::path& file, const fs::path& shipped, core::ProblemList& problems) {
-  if (!fs::is_regular_file(file))
+  std::error_code status;
+  if (!fs::is_regular_file(file, status))
     core::throw_input_error(ErrorClass::io, core::Place{file.string()}, "suite",
-                            fs::exists(file) ? "not a file" : "not found",
+                            status ? status.message() : "not a file",
                             "a TOML file (docs/regression.md)");
   Suite suite;
   suite.file = file;

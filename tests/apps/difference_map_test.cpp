@@ -168,3 +168,34 @@ TEST_CASE("compare --heat-map draws two images, and of two folders the pairs tha
   CHECK(run_fanbeam("compare a b --heat-map a/maps", in).exit_code == 2);
   CHECK(bytes_of(root / "a/same.png") == before);
 }
+
+TEST_CASE("compare tells every pair that it cannot read, and compares the others", "[compare]") {
+  const TemporaryFolder folder;
+  const std::filesystem::path root = folder.path();
+  const core::Picture8 picture{6, 4, std::vector<std::uint8_t>(24, 50)};
+  for (const char* side : {"a", "b"}) {
+    for (const char* name : {"1.png", "2.png", "9.png"})
+      core::write_png(root / side / name, picture, {});
+    folder.write(std::string(side) + "/3.png", "no picture");
+    std::filesystem::create_symlink("nowhere.png", root / side / "4.png");
+    std::filesystem::create_symlink("5.exr", root / side / "5.exr");
+  }
+  folder.write("a/1.png", "no picture either");
+  core::write_png(root / "b/9.png", core::Picture8{5, 4, std::vector<std::uint8_t>(20, 50)}, {});
+  const std::string in = "cd " + quoted(root) + " && ";
+  const Result result = run_fanbeam("compare a b", in);
+  INFO(result.output);
+  CHECK(result.exit_code == 3);
+  CHECK(result.output.find("same   2.png") != std::string::npos);
+  for (const char* told : {"a/1.png: E-PARSE", "a/3.png: E-PARSE", "a/4.png: E-IO", "a/5.exr: E-IO",
+                           "E-REF", "5 errors"})
+    CHECK(result.output.find(told) != std::string::npos);
+  std::filesystem::create_symlink("loop", root / "loop");
+  for (const char* words : {"compare loop loop", "regress run loop",
+                            "compare a/2.png b/2.png --heat-map loop/map.png"}) {
+    const Result loop = run_fanbeam(words, in);
+    INFO(loop.output);
+    CHECK(loop.output.find("E-IO") != std::string::npos);
+    CHECK(loop.output.find("filesystem error") == std::string::npos);
+  }
+}
