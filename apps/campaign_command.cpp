@@ -177,6 +177,7 @@ int slurm(const CampaignOptions& options, const CommonOptions& common, const Cam
   Campaign placed = campaign;
   placed.file = fs::absolute(campaign.file).lexically_normal();
   const fs::path script = options.output.empty() ? fs::path("job.sh") : fs::path(options.output);
+  refuse_output_among({placed.file}, script, "--output");
   core::write_file_atomically(
       script, datasets::slurm_script(
                   placed, {fs::read_symlink("/proc/self/exe"),

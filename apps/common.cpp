@@ -12,6 +12,7 @@
 #include <system_error>
 #include <tuple>
 
+#include "core/files.h"
 #include "session/shipped.h"
 
 namespace fanbeam::apps {
@@ -46,6 +47,14 @@ std::vector<fs::path> data_folders(const std::string& from_command_line) {
 }
 
 fs::path find_scene(const std::string& name) { return session::find_scene(name, shipped_folder()); }
+
+void refuse_output_among(const std::vector<fs::path>& inputs, const fs::path& output,
+                         const std::string& option) {
+  for (const fs::path& input : inputs)
+    if (!output.empty() && !input.empty() && core::lies_inside(input, output))
+      core::throw_input_error(core::ErrorClass::path, option, "\"" + output.string() + "\"",
+                              "a place apart from " + input.string() + ", which is read");
+}
 
 void print_problems(std::vector<core::Problem> problems) {
   std::stable_sort(

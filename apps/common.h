@@ -45,6 +45,11 @@ std::vector<std::filesystem::path> data_folders(const std::string& from_command_
 // "scenes/braunschweig-26").
 std::filesystem::path find_scene(const std::string& name);
 
+// Throws InputError E-PATH of the option (exit code 2) where an output is one of what a command reads, or lies in one
+// that is a folder; links are followed. Of an empty path nothing is said.
+void refuse_output_among(const std::vector<std::filesystem::path>& inputs,
+                         const std::filesystem::path& output, const std::string& option);
+
 // Prints each problem on a line of its own, errors before warnings, each by file and line, with a
 // count at the end.
 void print_problems(std::vector<core::Problem> problems);

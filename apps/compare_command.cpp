@@ -6,7 +6,6 @@
 #include <set>
 #include <system_error>
 
-#include "core/files.h"
 #include "core/image_compare.h"
 #include "core/text.h"
 #include "measure/image_files.h"
@@ -120,12 +119,6 @@ fs::path single_map(const CompareOptions& options) {
   return map;
 }
 
-void refuse_map_among(const fs::path& image_or_folder, const fs::path& map) {
-  if (!map.empty() && core::lies_inside(image_or_folder, map))
-    core::throw_input_error(core::ErrorClass::path, "--heat-map", "\"" + map.string() + "\"",
-                            "a place outside " + image_or_folder.string() + ", which is compared");
-}
-
 // What cannot be read is told when all others are compared.
 bool compare_folders(const fs::path& a, const fs::path& b, const CompareOptions& options,
                      bool quiet) {
@@ -192,8 +185,7 @@ int compare(const CompareOptions& options, const CommonOptions& common) {
                             "two images or two folders");
   const bool folders = fs::is_directory(a);
   const fs::path map = folders ? fs::path(options.heat_map) : single_map(options);
-  refuse_map_among(a, map);
-  refuse_map_among(b, map);
+  refuse_output_among({a, b}, map, "--heat-map");
   const bool same = folders ? compare_folders(a, b, options, common.quiet)
                             : compare_files(a, b, map, true, options, common.quiet);
   return same ? kExitDone : kExitCompareFailed;

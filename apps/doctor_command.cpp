@@ -144,6 +144,7 @@ int examine_scene(const DoctorOptions& options, const CommonOptions& common) {
   build.accuracy_grey = options.accuracy_grey;
   const auto scene =
       session::Session(description, {.build = build, .pictures = false}, problems).scene();
+  refuse_output_among(files_of_scene(options, scene->description), options.json, "--json");
   if (!common.quiet) print_problems(problems.all());
   Findings findings = scenes::examine(*scene, problems.all());
   session::add_blank_pictures(*scene, findings);

@@ -2,8 +2,10 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "apps/live_status_line.h"
 #include "apps/stop_on_signals.h"
@@ -31,7 +33,18 @@ scenes::SceneDescription scene_of(const LiveOptions& options, const live::PosesF
   return description;
 }
 
-std::unique_ptr<session::Session> opened(const LiveOptions& options, const live::PosesFrom& from,
+void refuse_outputs_among_inputs(const LiveOptions& options, const live::Wiring& wiring,
+                                 const scenes::SceneDescription& scene) {
+  std::vector<std::filesystem::path> inputs = files_of_scene(options, scene);
+  inputs.emplace_back(options.replay);
+  inputs.emplace_back(options.token_file);
+  for (const live::PosesFrom& from : wiring.from) inputs.push_back(from.csv);
+  refuse_output_among(inputs, options.record, "--record");
+  for (const live::RawSink& sink : wiring.to.raw)
+    if (sink.file != "-") refuse_output_among(inputs, sink.file, "--to");
+}
+
+std::unique_ptr<session::Session> opened(const LiveOptions& options, const live::Wiring& wiring,
                                          bool quiet) {
   core::ProblemList problems;
   scenes::BuildOptions build;
@@ -43,9 +56,10 @@ std::unique_ptr<session::Session> opened(const LiveOptions& options, const live:
   const bool measured =
       options.lockstep && options.replay.empty() && !(options.rays_per_cell > 0.0);
   auto session = std::make_unique<session::Session>(
-      scene_of(options, from, problems),
+      scene_of(options, wiring.first(), problems),
       session::Setup{.build = build, .keeps_time_budget = measured, .threads = options.threads},
       problems);
+  refuse_outputs_among_inputs(options, wiring, session->scene()->description);
   if (!quiet) print_problems(problems.all());
   return session;
 }
@@ -67,7 +81,7 @@ int fly(const LiveOptions& given, const CommonOptions& common) {
                                      [&](const std::string& scene) {
                                        LiveOptions other = options;
                                        other.scene = scene;
-                                       return opened(other, wiring.first(), common.quiet);
+                                       return opened(other, wiring, common.quiet);
                                      },
                                  .page =
                                      [&](const std::string& scene, std::uint16_t port) {

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "apps/render_command.h"
+#include "apps/scene_choice.h"
 #include "core/text.h"
 #include "measure/regress/report.h"
 #include "measure/regress/run.h"
@@ -47,6 +49,20 @@ void print_case(const CaseResult& result, bool quiet) {
   std::fflush(stdout);
 }
 
+// The suite, the approved pictures and the scenes; what is wrong with a scene is told with its case.
+std::vector<fs::path> files_read(const measure::Suite& suite) {
+  std::vector<fs::path> files = {suite.file, suite.approved};
+  for (const measure::SuiteCase& one : suite.cases) {
+    try {
+      core::ProblemList told_later;
+      const auto of_scene = files_of_scene(one.render, read_chosen_scene(one.render, told_later));
+      files.insert(files.end(), of_scene.begin(), of_scene.end());
+    } catch (const core::InputError&) {
+    }
+  }
+  return files;
+}
+
 int regress(const RegressOptions& options, const CommonOptions& common) {
   core::ProblemList missing;
   check_data_folder(options.data, missing);
@@ -54,6 +70,7 @@ int regress(const RegressOptions& options, const CommonOptions& common) {
   measure::Suite suite = measure::read_valid_suite(options.suite, shipped_folder());
   if (!options.data.empty())
     for (measure::SuiteCase& one : suite.cases) one.render.data = options.data;
+  if (!options.junit.empty()) refuse_output_among(files_read(suite), options.junit, "--junit");
   const fs::path output = results_folder(suite, options.output);
   const std::vector<CaseResult> results =
       run_suite(suite, {output, options.junit, options.page,

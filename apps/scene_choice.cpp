@@ -1,10 +1,12 @@
 #include "apps/scene_choice.h"
 
 #include <CLI/CLI.hpp>
+#include <system_error>
 
 #include "apps/command_line.h"
 #include "apps/value_words.h"
 #include "scenes/scene_reader.h"
+#include "session/records/fingerprint.h"
 #include "session/shipped.h"
 
 namespace fanbeam::apps {
@@ -53,6 +55,15 @@ scenes::SceneDescription read_chosen_scene(const SceneChoice& choice, core::Prob
   const std::vector<fs::path> data = tried([&] { return data_folders(choice.data); }, missing);
   missing.throw_if_errors();
   return scenes::read_scene(scene, {shipped_folder(), data, sensor}, problems);
+}
+
+std::vector<fs::path> files_of_scene(const SceneChoice& choice,
+                                     const scenes::SceneDescription& scene) {
+  std::vector<fs::path> files = session::with_companions(scene.files);
+  const fs::path chosen = find_scene(choice.scene);
+  std::error_code status;
+  files.push_back(fs::is_directory(chosen, status) ? chosen / "scene.toml" : chosen);
+  return files;
 }
 
 }  // namespace fanbeam::apps

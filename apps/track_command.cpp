@@ -52,10 +52,11 @@ void print(const core::HighwayScenario& scenario, const session::ScenarioTracks&
   }
 }
 
-fs::path output_of(const TrackOptions& options, const std::string& name) {
+fs::path output_of(const TrackOptions& options, const std::string& name,
+                   const std::vector<std::string>& parts) {
   const fs::path folder =
       options.output.empty() ? fs::path("out") / (name + "-tracks") : fs::path(options.output);
-  check_output(folder);
+  check_output(options.file, folder, parts);
   return folder;
 }
 
@@ -86,7 +87,7 @@ session::OwnTracks tracks_of(session::MeasuredSource& source, const TrackOptions
 int track_own_data(const TrackOptions& options, session::TrackInput input,
                    const CommonOptions& common) {
   const auto source = own_source(options, input);
-  const fs::path folder = output_of(options, source->name);
+  const fs::path folder = output_of(options, source->name, {""});
   const session::OwnTracks tracks = tracks_of(*source, options, common.quiet);
   write_own_tracks(tracks, *source, options, body_errors(options), options.plots, folder);
   if (common.quiet) return kExitDone;
@@ -126,7 +127,10 @@ int track(const TrackOptions& options, const CommonOptions& common) {
   if (input != session::TrackInput::scenarios) return track_own_data(options, input, common);
   const scenes::HighwayFile file = scenes::read_highway_file(options.file);
   const auto scenarios = session::chosen_scenarios(file, options.scenario, options);
-  const fs::path folder = output_of(options, fs::path(options.file).stem().string());
+  std::vector<std::string> parts;
+  if (!options.study)
+    for (const session::StudyScenario& one : scenarios) parts.push_back(one.scenario->id);
+  const fs::path folder = output_of(options, fs::path(options.file).stem().string(), parts);
   if (options.study) return study(options, file, scenarios, folder, common.quiet);
   core::ProblemList problems;
   for (const session::StudyScenario& one : scenarios)

@@ -2,14 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
+#include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "apps/scene_choice.h"
 #include "core/errors.h"
+#include "core/files.h"
 #include "core/json_node.h"
 #include "core/units.h"
 #include "session/records/output_folder.h"
+#include "session/signal/tracks/track_table.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -60,7 +65,33 @@ bool is_ours(const fs::path& record) {
   const auto file = core::read_json_file(record, kLargest_bytes, kLimits, problems);
   if (!file) return false;
   const core::JsonNode json(*file, problems);
-  return json.member("scenarios").present() || json.member("confirmed_tracks").present();
+  return json.member("commit").present() &&
+         (json.member("scenarios").present() || json.member("confirmed_tracks").present());
+}
+
+// What a table of `fanbeam track` begins with, whichever run wrote it: one that was stopped leaves no record.
+constexpr std::array<std::pair<const char*, std::string_view>, 2> kTables = {
+    {{"tracks.csv", session::kTrackColumns}, {"measurements.csv", session::kMeasurementColumns}}};
+
+bool begins_with(const fs::path& file, std::string_view text) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string head(text.size(), '\0');
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head == text;
+}
+
+[[noreturn]] void refuse_output(core::ErrorClass kind, const fs::path& folder,
+                                const std::string& expected) {
+  core::throw_input_error(kind, "--output", "\"" + folder.string() + "\"", expected);
+}
+
+// The folder that files of INPUT are in: tables there would be read with them.
+void refuse_input_folder(const fs::path& input, const fs::path& folder) {
+  std::error_code status;
+  if (!fs::is_directory(input, status)) return;
+  for (const char* below : {".", "detections", "beat"})
+    if (core::lies_inside(input / below, folder) && core::lies_inside(folder, input / below))
+      refuse_output(core::ErrorClass::path, folder, "a folder apart from the files of INPUT");
 }
 
 session::SourceSettings settings_of(const TrackOptions& options) {
@@ -91,13 +122,30 @@ void refuse_other_options(const TrackOptions& options, session::TrackInput input
   problems.throw_if_errors();
 }
 
-void check_output(const fs::path& folder) {
+void check_output(const std::string& input, const fs::path& folder,
+                  const std::vector<std::string>& parts) {
   session::check_can_be_folder(folder);
   std::error_code status;
-  const fs::path record = folder / "run.json";
-  if (fs::is_regular_file(record, status) && !is_ours(record))
-    core::throw_input_error(core::ErrorClass::range, "--output", "\"" + folder.string() + "\"",
-                            "a folder without the record of another command (run.json)");
+  refuse_input_folder(input, folder);
+  const bool is_file = fs::is_regular_file(input, status);
+  for (const char* name : {"run.json", "timing.json"})
+    if (is_file) refuse_output_among({input}, folder / name, "--output");
+  for (const std::string& part : parts)
+    for (const auto& [name, columns] : kTables) {
+      const fs::path table = (folder / part / name).lexically_normal();
+      if (is_file) refuse_output_among({input}, table, "--output");
+      if (fs::exists(table, status) && !begins_with(table, columns))
+        refuse_output(core::ErrorClass::range, folder,
+                      "a folder without " + (part / fs::path(name)).string() +
+                          " of something else than fanbeam track");
+    }
+  const bool has_record = fs::is_regular_file(folder / "run.json", status);
+  if (has_record && !is_ours(folder / "run.json"))
+    refuse_output(core::ErrorClass::range, folder,
+                  "a folder without the record of another command (run.json)");
+  if (!has_record && fs::exists(folder / "timing.json", status))
+    refuse_output(core::ErrorClass::range, folder,
+                  "a folder without timing.json of something else than fanbeam track");
 }
 
 session::BodyErrors body_errors(const TrackOptions& options) {

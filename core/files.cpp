@@ -146,6 +146,7 @@ void write_file_atomically(const fs::path& path, std::string_view bytes) {
 
 bool lies_inside(const fs::path& folder, const fs::path& path) {
   std::error_code status;
+  if (fs::equivalent(folder, path, status)) return true;  // by a hard link, too
   const fs::path root = fs::weakly_canonical(folder, status);
   if (status) return false;
   const fs::path full = fs::weakly_canonical(path, status);

@@ -38,7 +38,7 @@ std::filesystem::path temporary_beside(const std::filesystem::path& path);
 // is no such folder.
 void remove_abandoned_temporaries(const std::filesystem::path& folder);
 
-// Whether `path` lies in `folder` or is it, symbolic links of both followed. What is not there
+// Whether `path` lies in `folder` or is it (also where that is a file), links of both followed. What is not there
 // lies where its name says. False too where the system does not answer.
 bool lies_inside(const std::filesystem::path& folder, const std::filesystem::path& path);
 

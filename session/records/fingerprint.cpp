@@ -55,15 +55,21 @@ bool is_raster(const fs::path& file) {
 
 }  // namespace
 
+std::vector<fs::path> with_companions(const std::vector<fs::path>& files) {
+  std::vector<fs::path> all;
+  for (const fs::path& file : files) {
+    all.push_back(file);
+    if (!is_raster(file)) continue;
+    for (const fs::path& other : of_one_name(file))
+      if (other != file) all.push_back(other);
+  }
+  return all;
+}
+
 std::string fingerprint_of(std::string_view settings, const std::vector<fs::path>& files) {
   Hash hash;
   hash.add(settings);
-  for (const fs::path& file : files) {
-    hash.add_file(file);
-    if (!is_raster(file)) continue;
-    for (const fs::path& other : of_one_name(file))
-      if (other != file) hash.add_file(other);
-  }
+  for (const fs::path& file : with_companions(files)) hash.add_file(file);
   return fmt::format("{:016x}", hash.value());
 }
 

@@ -8,9 +8,11 @@
 
 namespace fanbeam::session {
 
-// 16 hexadecimal digits of `settings`, of the bytes of `files`, and of a raster's files of the same
-// name ("dem.tfw", "dem.tif.aux.xml"). Tells inputs apart, guards nothing (FNV-1a, 64 bits). Files that
-// are not there count as empty.
+// `files`, and behind a raster those of its name ("dem.tfw", "dem.tif.aux.xml").
+std::vector<std::filesystem::path> with_companions(const std::vector<std::filesystem::path>& files);
+
+// 16 hexadecimal digits of `settings` and of the bytes of `files` with their companions. Tells inputs apart,
+// guards nothing (FNV-1a, 64 bits). Files that are not there count as empty.
 std::string fingerprint_of(std::string_view settings,
                            const std::vector<std::filesystem::path>& files);
 

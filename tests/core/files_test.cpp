@@ -157,6 +157,10 @@ TEST_CASE("F05 what lies in a folder is told with all links followed", "[files][
   fs::create_symlink("loop", scratch / "scene/loop");
   fs::create_symlink("scene", scratch / "other-name");
   const fs::path scene = scratch / "scene";
+  fs::create_hard_link(scene / "dem.tif", scratch / "second.tif");
+  CHECK(lies_inside(scene / "dem.tif", scratch / "second.tif"));
+  CHECK(lies_inside(scene / "dem.tif", scene / "same.tif"));
+  CHECK_FALSE(lies_inside(scene, scratch / "second.tif"));
   for (const char* name : {"", "dem.tif", "same.tif", "models/none.glb", "models/../dem.tif"}) {
     INFO(name);
     CHECK(lies_inside(scene, scene / name));
