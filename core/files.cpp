@@ -76,18 +76,32 @@ fs::path temporary_beside(const fs::path& path) {
   return path.parent_path() / std::string(".").append(path.stem().string(), 0, room).append(end);
 }
 
-std::string read_file(const fs::path& path, std::uint64_t largest_bytes) {
+std::ifstream open_file(const fs::path& path, ProblemList& problems) {
   std::error_code status;
+  std::ifstream stream;
+  std::string fault;
   if (!fs::is_regular_file(path, status))
-    throw_io(path, status ? status.message() : "not a file", "a readable file");
+    fault = status ? status.message() : "not a file";
+  else if (stream.open(path, std::ios::binary); !stream.is_open())
+    fault = std::strerror(errno);
+  if (!fault.empty()) {
+    stream.setstate(std::ios::failbit);
+    problems.error(ErrorClass::io, Place{path.string()}, "", fault, "a readable file");
+  }
+  return stream;
+}
+
+std::string read_file(const fs::path& path, std::uint64_t largest_bytes) {
+  ProblemList problems;
+  std::ifstream stream = open_file(path, problems);
+  problems.throw_if_errors();
+  std::error_code status;
   const std::uint64_t size = fs::file_size(path, status);
   if (status) throw_io(path, status.message(), "a readable file");
   if (size > largest_bytes)
     throw_input_error(ErrorClass::limit, Place{path.string()}, "file size",
                       std::to_string(size) + " bytes",
                       "at most " + std::to_string(largest_bytes) + " bytes");
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw_io(path, std::strerror(errno), "a readable file");
   std::string bytes(size, '\0');
   stream.read(bytes.data(), static_cast<std::streamsize>(size));
   bytes.resize(static_cast<std::size_t>(stream.gcount()));

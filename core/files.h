@@ -4,10 +4,17 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <iosfwd>
 #include <string>
 #include <string_view>
 
 namespace fanbeam::core {
+
+class ProblemList;
+
+// Its bytes, from the first on. What is no regular file is not opened, as opening a named pipe waits for whoever
+// writes to it: that, and what the system refuses, is E-IO in `problems`, and the stream is not open.
+std::ifstream open_file(const std::filesystem::path& path, ProblemList& problems);
 
 // The file's bytes. Throws InputError: E-IO when it cannot be read, E-LIMIT when larger than
 // `largest_bytes` (checked before anything is allocated).

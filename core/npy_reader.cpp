@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "core/errors.h"
+#include "core/files.h"
 #include "core/npy.h"
 #include "core/text.h"
 
@@ -111,10 +112,12 @@ std::size_t NpyHeader::count() const {
 }
 
 NpyHeader read_npy_header(const fs::path& path) {
+  ProblemList problems;
+  std::ifstream stream = open_file(path, problems);
+  problems.throw_if_errors();
   std::error_code status;
   const std::uintmax_t file_bytes = fs::file_size(path, status);
-  std::ifstream stream(path, std::ios::binary);
-  if (status || !stream) refuse_npy(ErrorClass::io, path, "", "not readable", "a NumPy file");
+  if (status) refuse_npy(ErrorClass::io, path, "", status.message(), "a NumPy file");
   std::array<unsigned char, 12> first{};
   stream.read(reinterpret_cast<char*>(first.data()), first.size());
   if (stream.gcount() < 12 || std::memcmp(first.data(), "\x93NUMPY", 6) != 0 || first[6] < 1 ||

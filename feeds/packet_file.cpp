@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/files.h"
 #include "feeds/bytes.h"
 
 namespace fanbeam::feeds {
@@ -89,9 +90,9 @@ bool is_known_link(std::uint32_t link) {
 class Reader {
  public:
   Reader(const std::filesystem::path& file, core::ProblemList& problems)
-      : file_(file.string()), stream_(file, std::ios::binary), problems_(problems) {}
+      : file_(file.string()), stream_(core::open_file(file, problems)), problems_(problems) {}
 
-  bool is_open() const { return stream_.is_open() && stream_.good(); }
+  bool is_open() const { return stream_.is_open(); }
   core::Place place(std::int64_t offset) const { return {file_, 0, 0, offset}; }
 
   // How many there were, up to the size of `into`.
@@ -224,10 +225,7 @@ void read_datagrams(const std::filesystem::path& file, const EachDatagram& each,
   const auto refuse = [&](const char* what, const char* expected) {
     problems.error(core::ErrorClass::ref, reader.place(0), "packet file", what, expected);
   };
-  if (!reader.is_open()) {
-    reader.refuse_unreadable(-1);
-    return;
-  }
+  if (!reader.is_open()) return;
   const std::size_t count = reader.read(first);
   const auto kind = capture_kind(first);
   if (!reader.begin_again())

@@ -1,7 +1,6 @@
 #include "scenes/line_reader.h"
 
-#include <system_error>
-
+#include "core/files.h"
 #include "core/text.h"
 
 namespace fanbeam::scenes {
@@ -9,15 +8,10 @@ namespace fanbeam::scenes {
 using core::ErrorClass;
 
 LineReader::LineReader(const std::filesystem::path& path, core::ProblemList& problems)
-    : stream_(path, std::ios::binary),
+    : stream_(core::open_file(path, problems)),
       place_{path.string()},
       problems_(problems),
-      buffer_(kLongestLine_bytes, '\0') {
-  std::error_code status;
-  if (stream_ && std::filesystem::is_regular_file(path, status)) return;
-  stream_.setstate(std::ios::failbit);
-  problems_.error(ErrorClass::io, place_, "", "not readable", "a readable file");
-}
+      buffer_(kLongestLine_bytes, '\0') {}
 
 bool LineReader::next(std::string_view& line) {
   while (stream_.good()) {
@@ -25,7 +19,7 @@ bool LineReader::next(std::string_view& line) {
     const auto count = static_cast<std::size_t>(stream_.gcount());
     if (count > 0 || place_.line == 0) ++place_.line;
     if (stream_.bad()) {
-      problems_.error(ErrorClass::io, place_, "", "read failed", "a readable file");
+      problems_.error(ErrorClass::io, {place_.file}, "", "read failed", "a readable file");
       return false;
     }
     if (stream_.fail() && count > 0) {

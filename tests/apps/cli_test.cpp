@@ -163,7 +163,8 @@ TEST_CASE("Exit code 4: what the system refuses", "[cli]") {
         "validate " + quoted(folder.path()), std::string("render flat-grass --sensor missing.toml"),
         "render flat-grass -q -o " + quoted(folder.path() / "file"),
         "render flat-grass -q -o " + quoted(folder.path() / "file/deeper"),
-        std::string("compare missing.png missing.png")}) {
+        std::string("compare missing.png missing.png"),
+        std::string("live flat-grass --http 0 -q --from csv:/proc/self/mem")}) {
     INFO("fanbeam " << words.substr(0, 100));
     const Result result = run_fanbeam(words);
     INFO(result.output.substr(0, 500));

@@ -2,6 +2,8 @@
 // (F05, F17).
 #include "core/files.h"
 
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <filesystem>
@@ -56,6 +58,26 @@ TEST_CASE("Reading refuses what is too large, missing or a folder", "[files]") {
   CHECK(code_of([&] { read_file(scratch / "eight", 7); }) == "E-LIMIT");
   CHECK(code_of([&] { read_file(scratch / "missing", 8); }) == "E-IO");
   CHECK(code_of([&] { read_file(scratch.folder(), 8); }) == "E-IO");
+}
+
+// A pipe that nobody writes to: opening it would never end.
+TEST_CASE("What is no file is told as such and not opened", "[files]") {
+  const Scratch scratch;
+  write_file_atomically(scratch / "two", "12");
+  REQUIRE(::mkfifo((scratch / "pipe").c_str(), 0600) == 0);
+  ProblemList problems;
+  std::string bytes;
+  CHECK(open_file(scratch / "two", problems) >> bytes);
+  CHECK(bytes == "12");
+  CHECK(problems.all().empty());
+  for (const fs::path& none : {scratch / "pipe", scratch.folder(), scratch / "missing"})
+    CHECK_FALSE(open_file(none, problems).is_open());
+  REQUIRE(problems.all().size() == 3);
+  for (const Problem& problem : problems.all()) CHECK(problem.code == "E-IO");
+  CHECK(problems.all()[0].value == "not a file");
+  CHECK(problems.all()[0].place.file == (scratch / "pipe").string());
+  CHECK(problems.all()[1].value == "not a file");
+  CHECK(problems.all()[2].value == "No such file or directory");
 }
 
 TEST_CASE("The size is checked before memory is asked for", "[files]") {

@@ -1,6 +1,8 @@
 // NumPy files byte by byte: what numpy.lib.format asks for.
 #include "core/npy.h"
 
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <fstream>
@@ -115,6 +117,8 @@ TEST_CASE("A NumPy value beyond the largest is told with its place and sign", "[
 TEST_CASE("NumPy files that lie, are cut or hold what is no number are refused", "[npy]") {
   const TemporaryFolder folder;
   CHECK(code_of(folder.path() / "none.npy") == "E-IO");
+  REQUIRE(::mkfifo((folder.path() / "pipe.npy").c_str(), 0600) == 0);
+  CHECK(code_of(folder.path() / "pipe.npy") == "E-IO");  // opening it would never end
   const auto with = [&](const std::string& dictionary, const std::string& values = {}) {
     return code_of(npy_file(folder, dictionary, values));
   };

@@ -2,6 +2,7 @@
 #include "feeds/packet_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -167,6 +168,11 @@ TEST_CASE("A file that the system cannot read on is told", "[packet_file]") {
 TEST_CASE("Other files are refused with what they are", "[packet_file]") {
   CHECK(read(std::filesystem::path("/nowhere/flight.pcap")).problems == "E-IO@-1");
   CHECK(read(std::filesystem::path("/")).problems == "E-IO@-1");
+  const auto pipe =
+      std::filesystem::temp_directory_path() / ("fanbeam_pipe_" + std::to_string(getpid()));
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK(read(pipe).problems == "E-IO@-1");  // opening it would never end
+  std::filesystem::remove(pipe);
   CHECK(read(Bytes{}).problems == "E-REF@0");
   CHECK(read(Bytes{0x0a, 0x0d, 0x0d, 0x0a, 28, 0, 0, 0, 0x4d, 0x3c, 0x2b, 0x1a}).problems ==
         "E-REF@0");

@@ -1,5 +1,6 @@
 #include "scenes/trajectory/trajectory_csv.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -11,6 +12,7 @@
 #include "core/units.h"
 #include "tests/peak_memory.h"
 #include "tests/shared_data.h"
+#include "tests/terrain/ascii_grid.h"
 
 namespace fanbeam::scenes {
 namespace {
@@ -220,12 +222,19 @@ TEST_CASE("Empty positions are counted, empty angles drop the angle", "[trajecto
 }
 
 TEST_CASE("A file that cannot be read is E-IO", "[trajectory_csv]") {
+  const tests::TemporaryFolder folder;
+  const fs::path pipe = folder.path() / "pipe.csv";  // opening it would never end
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
   core::ProblemList problems;
   read_track_csv("/nonexistent/track.csv", {}, problems);
   read_track_csv(fs::temp_directory_path(), {}, problems);
-  REQUIRE(problems.all().size() == 2);
-  CHECK(problems.all()[0].code == "E-IO");
-  CHECK(problems.all()[1].code == "E-IO");
+  read_track_csv(pipe, {}, problems);
+  read_track_csv("/proc/self/mem", {}, problems);  // opens, and refuses its first byte
+  REQUIRE(problems.all().size() == 4);
+  for (const core::Problem& problem : problems.all()) {
+    CHECK(problem.code == "E-IO");
+    CHECK(problem.place.line == 0);  // the system's fault, of no line
+  }
 }
 
 TEST_CASE("Real flights: the airliner's height is geometric or barometric", "[trajectory_csv]") {
