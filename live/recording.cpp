@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/errors.h"
+#include "core/files.h"
 #include "core/json_node.h"
 
 namespace fanbeam::live {
@@ -51,7 +52,7 @@ class Lines {
     return known;
   }
 
-  void take(const std::string& text, const std::string& name) {
+  void take(const std::string& text, const std::string& name, int number) {
     const auto file = core::parse_json(text, name, kLineLimits, problems_);
     if (!file) return;
     const core::JsonNode line(*file, problems_);
@@ -60,14 +61,12 @@ class Lines {
     else if (line.member("frame").present())
       frame(line);
     else
-      control(line);
+      control(line, number);
   }
 
  private:
   void head(const core::JsonNode& line) {
-    if (line.member("fanbeam_live").whole(1, 1) != 1)
-      problems_.error(core::ErrorClass::ref, line.place(), "/fanbeam_live", "missing",
-                      "1, as in what fanbeam live --record writes");
+    line.member("fanbeam_live").whole(1, 1);
     FlownBy& flown_by = recording_.flown_by;
     flown_by.scene = line.required("scene").text().value_or("");
     const core::JsonNode from = line.required("from");
@@ -103,9 +102,11 @@ class Lines {
     recording_.events.emplace_back(frame);
   }
 
-  void control(const core::JsonNode& line) {
+  // The body is JSON of anybody's, on as many lines as it came.
+  void control(const core::JsonNode& line, int number) {
     recording_.events.emplace_back(RecordedControl{line.required("control").text().value_or(""),
-                                                   line.required("body").text().value_or("")});
+                                                   line.required("body").any_text().value_or(""),
+                                                   number});
   }
 
   Recording& recording_;
@@ -115,30 +116,26 @@ class Lines {
 }  // namespace
 
 Recording read_recording(const std::filesystem::path& file) {
-  constexpr const char* kReadable = "a file that can be read";
-  constexpr const char* kUnreadable = "cannot be read";
-  std::ifstream stream(file, std::ios::binary);
-  std::error_code error;
-  const std::uint64_t size = std::filesystem::file_size(file, error);
-  if (!stream || error)
-    core::throw_input_error(core::ErrorClass::io, core::Place{file.string()}, "--replay",
-                            error ? error.message() : kUnreadable, kReadable);
+  core::ProblemList problems;
+  std::ifstream stream = core::open_file(file, problems);
+  problems.throw_if_errors();
+  const std::uint64_t size = std::filesystem::file_size(file);
   if (size > kMost_bytes)
-    core::throw_input_error(core::ErrorClass::limit, core::Place{file.string()}, "--replay",
+    core::throw_input_error(core::ErrorClass::limit, core::Place{file.string()}, "file size",
                             fmt::format("{} bytes", size), "at most 2 GiB");
   Recording recording;
-  core::ProblemList problems;
+  recording.file = file.string();
   Lines lines(recording, problems);
   std::string text;
   // The first line tells what the file is, whether it is whole or not.
   for (int number = 1; std::getline(stream, text) && (number == 1 || !stream.eof()); ++number) {
     const std::string name = fmt::format("{}:{}", file.string(), number);
     if (number == 1 && !lines.take_head(text, name)) break;
-    if (number > 1) lines.take(text, name);
+    if (number > 1) lines.take(text, name, number);
     if (problems.all().size() >= kMostProblems) break;
   }
   if (stream.bad())
-    problems.error(core::ErrorClass::io, {file.string()}, "--replay", kUnreadable, kReadable);
+    problems.error(core::ErrorClass::io, {file.string()}, "", "read failed", "a readable file");
   if (recording.flown_by.from.empty() && problems.all().empty())
     problems.error(core::ErrorClass::parse, {file.string()}, "", "empty",
                    "what fanbeam live --record writes");

@@ -24,9 +24,11 @@ struct RecordedFrame {
 
 struct RecordedControl {
   std::string path, body;
+  int line = 0;
 };
 
 struct Recording {
+  std::string file;
   FlownBy flown_by;
   std::vector<std::variant<RecordedPacket, RecordedFrame, RecordedControl>> events;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "live/frame_maker.h"
 #include "live/predictor.h"
@@ -51,7 +53,15 @@ class Replay {
     newest_ = {heard->pose, packet.arrived_s};
   }
 
-  void take(const RecordedControl& control) { desk_.control(control.path, control.body); }
+  void take(const RecordedControl& control) {
+    try {
+      desk_.control(control.path, control.body);
+    } catch (const core::InputError& error) {
+      std::vector<core::Problem> problems = error.problems();
+      for (core::Problem& problem : problems) problem.place = {recording_.file, control.line};
+      throw core::InputError(std::move(problems));
+    }
+  }
 
   void take(const RecordedFrame& frame) {
     const bool shows = settings_.lockstep || in_time(frame.tick);

@@ -22,7 +22,7 @@ struct ReplaySettings {
 
 // `feeds` decode the packets of a recording that has some, each those of its source (their mailbox is not
 // used); `flight` is that of one without, else null. Controls go through `desk`; one that it refuses (of another scene)
-// is thrown as InputError. Ends with the recording.
+// is thrown as InputError with its line in the recording. Ends with the recording.
 void run_replay(session::Session& session, const Recording& recording,
                 const std::vector<const Feed*>& feeds, const Flight* flight, const Desk& desk,
                 const ReplaySettings& settings, Hub& hub, const Told& told,

@@ -1,6 +1,8 @@
 // Live channels recorded and flown again: the same bytes, and recordings that are none.
 #include "live/recording.h"
 
+#include <sys/stat.h>
+
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <thread>
@@ -339,6 +341,73 @@ TEST_CASE("A recording is as it was until its channel begins, and one channel's 
   const live::Recording recording = live::read_recording(file);
   CHECK(recording.flown_by.scene == "s");
   CHECK(recording.events.size() == 1);
+}
+
+// The recording of a whole flight was refused for it.
+TEST_CASE("A control on several lines is recorded and in force again", "[recording]") {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.path() / "flight.jsonl";
+  const std::string body = "{\r\n\t\"rain_rate_mm_per_h\": 4\n}\n";
+  const auto session = tests::live_session(folder);
+  live::Hub hub;
+  live::Journal journal(file, {"s", {"circle"}, 16.0, true});
+  const live::Desk desk(*session, hub, &journal);
+  REQUIRE(desk.answer({"POST", "/api/weather", "localhost", {}, "application/json", body}).status ==
+          200);
+  const live::Recording recording = live::read_recording(file);
+  REQUIRE(recording.events.size() == 1);
+  CHECK(std::get<live::RecordedControl>(recording.events[0]).body == body);
+  CHECK(replayed(file).empty());
+}
+
+// It came in the middle of the flight, of a "body".
+TEST_CASE("A recorded control that the scene refuses is told with its line", "[recording]") {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.write("wrong.jsonl", std::string(kHead) +
+                                                    R"(
+{"control":"/api/weather","body":"{\"rain_rate_mm_per_h\": 4}"}
+{"control":"/api/weather","body":"{\"rain_rate_mm_per_h\": 4000, \"snow_rate_mm_per_h\": -1}"}
+)");
+  std::vector<core::Problem> problems;
+  try {
+    replayed(file);
+  } catch (const core::InputError& error) {
+    problems = error.problems();
+  }
+  REQUIRE(problems.size() == 2);
+  for (const core::Problem& problem : problems) {
+    CHECK(problem.code == "E-RANGE");
+    CHECK(problem.place.file == file.string());
+    CHECK(problem.place.line == 3);
+  }
+}
+
+TEST_CASE("A recording of another version is told as that alone", "[recording]") {
+  const tests::TemporaryFolder folder;
+  for (const auto& [version, code] : {std::pair("2", "E-RANGE"), {"\"1\"", "E-PARSE"}}) {
+    std::string head = kHead;
+    head.replace(head.find(":1,"), 2, ":" + std::string(version));
+    const auto problems = problems_of(folder.write("later.jsonl", head + "\n"));
+    REQUIRE(problems.size() == 1);
+    CHECK(problems[0].code == code);
+    CHECK(problems[0].field == "/fanbeam_live");
+  }
+}
+
+// What a field that begins as an option's name tells is wrong with the command line.
+TEST_CASE("What is no recording for its size or kind is the file's fault", "[recording]") {
+  const tests::TemporaryFolder folder;
+  const auto pipe = folder.path() / "pipe";  // opening it would never end
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  const auto large = folder.write("large.jsonl", "");
+  std::filesystem::resize_file(large, (2ULL << 30U) + 1);  // that occupy nothing
+  for (const auto& [file, code] : {std::pair(pipe, "E-IO"), {large, "E-LIMIT"}}) {
+    const auto problems = problems_of(file);
+    REQUIRE(problems.size() == 1);
+    CHECK(problems[0].code == code);
+    CHECK(problems[0].place.file == file.string());
+    CHECK_FALSE(problems[0].field.starts_with("--"));
+  }
 }
 
 TEST_CASE("What is wrong with a recording is told with its line", "[recording]") {
