@@ -126,6 +126,10 @@ class Tree : public json::json_sax_t {
 };
 
 json parsed(const std::string& text, const std::string& file) {
+  // The parser would take it for the end of the text, whatever stands behind it.
+  if (const std::size_t zero = text.find('\0'); zero != std::string::npos)
+    throw_input_error(ErrorClass::parse, place_of(file, text, zero), "JSON text", "a zero byte",
+                      "well-formed JSON in UTF-8");
   Tree tree(file, text);
   json::sax_parse(text, &tree);
   return std::move(tree.root());

@@ -21,8 +21,8 @@ struct JsonFile {
   std::string name;
 };
 
-// Nothing after reporting: E-LIMIT (levels of nesting, values), E-PARSE with line and column, E-PARSE for a name
-// that is twice in one object, E-NONFINITE (a number beyond double).
+// Nothing after reporting: E-LIMIT (levels of nesting, values), E-PARSE with line and column (of a zero byte too,
+// behind the value as before it), E-PARSE for a name that is twice in one object, E-NONFINITE (a number beyond double).
 std::optional<JsonFile> parse_json(const std::string& text, const std::string& name,
                                    const JsonLimits& limits, ProblemList& problems);
 // The same of a file: also E-IO, and E-LIMIT above `largest_bytes`.

@@ -33,6 +33,10 @@ std::string words_of(const json::exception& error) {
 }
 
 json parsed_json(const GltfContainer& container, const std::string& file) {
+  // The parser would take it for the end of the text, whatever stands behind it. Chunks are padded with spaces.
+  if (const std::size_t zero = container.json.find('\0'); zero != std::string_view::npos)
+    core::throw_input_error(ErrorClass::parse, place_of(container, file, zero), "JSON text",
+                            "a zero byte", "well-formed JSON in UTF-8");
   try {
     json root = json::parse(container.json);
     if (root.is_object()) return root;

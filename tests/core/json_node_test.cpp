@@ -83,6 +83,20 @@ TEST_CASE("What is no JSON is told with its line and column, a number too large 
   CHECK(problems_of("{\"a\": 1e999}").at(0).code == "E-NONFINITE");
 }
 
+// The parser took it for the end, and what stood behind it for nothing.
+TEST_CASE("A zero byte in a JSON text is told where it stands", "[json]") {
+  const auto zero = std::string(1, '\0');
+  for (const std::string& behind : {std::string(), std::string("garbage"), std::string("{")}) {
+    const auto problems = problems_of("{\"a\":\n 1} " + zero + behind);
+    REQUIRE(problems.size() == 1);
+    CHECK(problems[0].code == "E-PARSE");
+    CHECK(problems[0].value == "a zero byte");
+    CHECK(problems[0].place.line == 2);
+    CHECK(problems[0].place.column == 5);
+  }
+  CHECK(problems_of("{\"a\": \"" + zero + "\"}").at(0).place.column == 8);
+}
+
 // Each object went through all before it.
 TEST_CASE("The time to read a list of objects grows as the list", "[json]") {
   std::string text = "{\"a\": [{}";

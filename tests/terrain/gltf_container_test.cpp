@@ -151,6 +151,24 @@ TEST_CASE("a syntax error comes with line and column", "[gltf]") {
   CHECK(has(problems_of_bytes("x.gltf", "{\"asset\": 1e999}"), "E-NONFINITE"));
 }
 
+// Parsers take it for the end, and what stands behind it for nothing.
+TEST_CASE("A zero byte in glTF's JSON is told where it stands", "[gltf]") {
+  const auto behind =
+      problems_of_bytes("x.gltf", tests::triangle_document().dump() + "\n" + std::string("\0{", 2));
+  REQUIRE(has(behind, "E-PARSE", "JSON text"));
+  CHECK(behind.at(0).value == "a zero byte");
+  CHECK(behind.at(0).place.line == 2);
+  CHECK(behind.at(0).place.column == 1);
+  nlohmann::json document = tests::triangle_document();
+  document["buffers"][0].erase("uri");
+  const std::string text = document.dump() + " ";
+  const auto padded =
+      problems_of_bytes("x.glb", tests::glb(tests::chunk("JSON", text + std::string(4, '\0'), ' ') +
+                                            tests::binary_chunk(tests::triangle_bytes())));
+  REQUIRE(has(padded, "E-PARSE", "JSON text"));
+  CHECK(padded.at(0).place.byte_offset == static_cast<std::int64_t>(20 + text.size()));
+}
+
 TEST_CASE("a missing file is E-IO", "[gltf]") {
   CHECK(has(problems_of("no/such/model.glb", "."), "E-IO"));
 }
