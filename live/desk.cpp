@@ -70,7 +70,7 @@ double gain_in(const std::string& word, core::ProblemList& problems) {
 
 // By so much of the scale.
 void amplify(core::Picture8& picture, double share) {
-  const auto steps = static_cast<int>(std::lround(255.0 * share));
+  const auto steps = static_cast<int>(std::lround(255.0 * std::clamp(share, -1.0, 1.0)));
   for (std::uint8_t& grey : picture.pixels)
     grey = static_cast<std::uint8_t>(std::clamp(grey + steps, 0, 255));
 }

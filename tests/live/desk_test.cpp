@@ -119,6 +119,19 @@ TEST_CASE("A frame is the PNG of its picture", "[desk]") {
         std::vector<double>{30.0 + 51.0, 40.0 + 51.0});
 }
 
+// Of a scale of nearly nothing any gain is beyond what an int holds: more made the picture black.
+TEST_CASE("Gain beyond the scale makes a picture white, less of it black", "[desk]") {
+  live::LiveFrame frame;
+  frame.bscope = {2, 1, {0, 200}};
+  for (const double scale_dB : {1e-8, 1e-300, 1.0}) {
+    frame.high_dB = frame.low_dB + scale_dB;
+    CHECK(live::picture_to_show(frame, live::Scope::bscope, 1.0).pixels ==
+          std::vector<std::uint8_t>{255, 255});
+    CHECK(live::picture_to_show(frame, live::Scope::bscope, -1.0).pixels ==
+          std::vector<std::uint8_t>{0, 0});
+  }
+}
+
 TEST_CASE("A picture that is out of date is crossed out where nothing else tells so", "[desk]") {
   Office office;
   auto frame = std::make_shared<live::LiveFrame>();
