@@ -408,6 +408,18 @@ TEST_CASE("What is wrong with values together is told beside those that are wron
   CHECK(told(get("/api/cell?scope=x&frame=1&column=1000&row=5000")) == Fields{"scope", "column"});
 }
 
+// It was said to be perhaps the snow, which was there.
+TEST_CASE("Weather without its rain is told with what is there and no likely one", "[desk]") {
+  const Office office;
+  const live::Answer answer =
+      office.desk.answer(post("/api/weather", R"({"snow_rate_mm_per_h": 50})"));
+  CHECK(answer.status == 422);
+  const json problems = json::parse(answer.body)["problems"];
+  REQUIRE(problems.size() == 1);
+  CHECK(problems[0]["field"] == "/rain_rate_mm_per_h");
+  CHECK(problems[0]["expected"] == "it to be there; there are snow_rate_mm_per_h");
+}
+
 // A slider of the page, which posts all it was told, took the fog away.
 TEST_CASE("What is told of the weather, posted back, changes nothing", "[desk]") {
   const Office office;
