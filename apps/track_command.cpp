@@ -86,6 +86,8 @@ session::OwnTracks tracks_of(session::MeasuredSource& source, const TrackOptions
 
 int track_own_data(const TrackOptions& options, session::TrackInput input,
                    const CommonOptions& common) {
+  if (!options.output.empty())
+    check_output(options.file, options.output, {""});  // before all is read
   const auto source = own_source(options, input);
   const fs::path folder = output_of(options, source->name, {""});
   const session::OwnTracks tracks = tracks_of(*source, options, common.quiet);

@@ -74,7 +74,8 @@ constexpr std::array<std::pair<const char*, std::string_view>, 2> kTables = {
     {{"tracks.csv", session::kTrackColumns}, {"measurements.csv", session::kMeasurementColumns}}};
 
 bool begins_with(const fs::path& file, std::string_view text) {
-  std::ifstream stream(file, std::ios::binary);
+  core::ProblemList none;
+  std::ifstream stream = core::open_file(file, none);
   std::string head(text.size(), '\0');
   stream.read(head.data(), static_cast<std::streamsize>(head.size()));
   return head == text;
@@ -130,19 +131,20 @@ void check_output(const std::string& input, const fs::path& folder,
   const bool is_file = fs::is_regular_file(input, status);
   for (const char* name : {"run.json", "timing.json"})
     if (is_file) refuse_output_among({input}, folder / name, "--output");
-  for (const std::string& part : parts)
-    for (const auto& [name, columns] : kTables) {
-      const fs::path table = (folder / part / name).lexically_normal();
-      if (is_file) refuse_output_among({input}, table, "--output");
-      if (fs::exists(table, status) && !begins_with(table, columns))
-        refuse_output(core::ErrorClass::range, folder,
-                      "a folder without " + (part / fs::path(name)).string() +
-                          " of something else than fanbeam track");
-    }
   const bool has_record = fs::is_regular_file(folder / "run.json", status);
   if (has_record && !is_ours(folder / "run.json"))
     refuse_output(core::ErrorClass::range, folder,
                   "a folder without the record of another command (run.json)");
+  for (const std::string& part : parts)
+    for (const auto& [name, columns] : kTables) {
+      const fs::path table = (folder / part / name).lexically_normal();
+      if (is_file) refuse_output_among({input}, table, "--output");
+      // Beside a record of ours a table is ours, of an earlier version with other columns too.
+      if (!has_record && fs::exists(table, status) && !begins_with(table, columns))
+        refuse_output(core::ErrorClass::range, folder,
+                      "a folder without " + (part / fs::path(name)).string() +
+                          " of something else than fanbeam track");
+    }
   if (!has_record && fs::exists(folder / "timing.json", status))
     refuse_output(core::ErrorClass::range, folder,
                   "a folder without timing.json of something else than fanbeam track");

@@ -39,7 +39,7 @@ const toml::source_region* region_at(const toml::table& table, std::string_view 
       std::size_t index = 0;
       const char* const last = rest.data() + rest.size();
       const char* const end = std::from_chars(rest.data() + 1, last, index).ptr;
-      if (end == last || *end != ']') continue;
+      if (end == rest.data() + 1 || end == last || *end != ']') continue;
       inner = node.as_array()->get(index);
       rest.remove_prefix(static_cast<std::size_t>(end - rest.data()) + 1);
       if (inner == nullptr) continue;

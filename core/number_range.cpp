@@ -8,8 +8,8 @@ namespace fanbeam::core {
 namespace {
 
 // As people write it: 1e7, not 1e+07.
-std::string limit_text(double limit) {
-  std::string text = number_text(limit);
+std::string limit_text(double end) {
+  std::string text = number_text(end);
   const std::size_t exponent = text.find('e');
   if (exponent == std::string::npos) return text;
   const bool negative = text[exponent + 1] == '-';

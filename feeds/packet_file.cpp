@@ -130,8 +130,7 @@ class Reader {
     problems_.error(core::ErrorClass::parse, place(record_), field, value, expected);
   }
   void refuse_unreadable(std::int64_t offset) {
-    problems_.error(core::ErrorClass::io, place(offset), "packet file", "not readable",
-                    "a file that can be read");
+    problems_.error(core::ErrorClass::io, place(offset), "", "read failed", "a readable file");
   }
 
  private:

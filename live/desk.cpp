@@ -103,7 +103,10 @@ void refuse_others(const core::JsonNode& root, std::initializer_list<const char*
 // With values that are wrong by themselves goes what is wrong with the others together.
 template <class Check>
 void refuse_with(core::ProblemList& problems, const Check& together) {
-  if (problems.has_errors()) problems.append(together().all());
+  if (!problems.has_errors()) return;
+  const core::ProblemList found = together();
+  for (const core::Problem& problem : found.all())
+    if (problem.is_error()) problems.append({problem});
   problems.throw_if_errors();
 }
 

@@ -119,7 +119,11 @@ Recording read_recording(const std::filesystem::path& file) {
   core::ProblemList problems;
   std::ifstream stream = core::open_file(file, problems);
   problems.throw_if_errors();
-  const std::uint64_t size = std::filesystem::file_size(file);
+  std::error_code fault;
+  const std::uint64_t size = std::filesystem::file_size(file, fault);
+  if (fault)
+    core::throw_input_error(core::ErrorClass::io, core::Place{file.string()}, "", fault.message(),
+                            "a readable file");
   if (size > kMost_bytes)
     core::throw_input_error(core::ErrorClass::limit, core::Place{file.string()}, "file size",
                             fmt::format("{} bytes", size), "at most 2 GiB");

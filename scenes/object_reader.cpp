@@ -263,7 +263,8 @@ void read_objects(ConfigTable& root, const DataSearch& search, ObjectNames& obje
   for (ConfigTable& table : root.tables("interferer", kMostInterferers)) {
     scene.interferers.push_back(read_interferer(table, scene.sensor.waveform));
     const std::string& carrier = scene.interferers.back().target;
-    const bool was_told = root.problems().has_errors() && (carrier.empty() || !all_named);
+    const bool was_told = (carrier.empty() && !table.is_text("target")) ||
+                          (root.problems().has_errors() && !all_named);
     if (std::find(names.begin(), names.end(), carrier) == names.end() && !was_told &&
         !root.problems().is_full())
       table.error(

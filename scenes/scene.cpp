@@ -1,5 +1,6 @@
 #include "scenes/scene.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -86,6 +87,11 @@ std::shared_ptr<const renderer::Geometry> geometry_of(const Ground& ground,
       std::move(bodies.objects.kinds), std::move(bodies.objects.models)});
 }
 
+auto errors_in(const core::ProblemList& problems) {
+  return std::count_if(problems.all().begin(), problems.all().end(),
+                       [](const core::Problem& problem) { return problem.is_error(); });
+}
+
 }  // namespace
 
 std::unique_ptr<Scene> build_scene(const SceneDescription& description, const BuildOptions& options,
@@ -100,9 +106,9 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   SceneSetting setting{description, options,
                        terrain::LocalFrame(ellipsoidal_origin(description), description.earth)};
   setting.description.place_of_key = nullptr;
-  const std::size_t before = problems.all().size();
+  const auto before = errors_in(problems);
   const Ground ground(description, setting.frame, names, problems);
-  const bool can_land = !problems.has_errors() || problems.all().size() == before;
+  const bool can_land = errors_in(problems) == before && !problems.is_full();
   Objects objects;
   objects.add("terrain", renderer::ObjectKind::terrain);
   std::vector<terrain::SurfacePatch> patches =

@@ -68,12 +68,15 @@ template <std::size_t kLanes>
   }
 }
 
-// Vectors as wide as the registers: wider ones would live in memory, ten to thirty times as slow.
+// Vectors as wide as the level's registers: wider ones would live in memory, ten to thirty times as slow.
 FANBEAM_HOT(void, weigh_together,
             (const double* from, std::size_t stride, const double* weights, std::size_t apart,
              std::size_t reached, double* sums),
             (from, stride, weights, apart, reached, sums)) {
-  switch (core::instruction_level()) {
+#if defined(FANBEAM_ONE_LEVEL)
+  return weigh_by<2>(from, stride, weights, apart, reached, sums);
+#else
+  switch (core::instruction_level()) {  // again: a body is one text for all levels
     case core::InstructionLevel::v4:
       return weigh_by<8>(from, stride, weights, apart, reached, sums);
     case core::InstructionLevel::v3:
@@ -81,6 +84,7 @@ FANBEAM_HOT(void, weigh_together,
     default:
       return weigh_by<2>(from, stride, weights, apart, reached, sums);
   }
+#endif
 }
 
 // Fewer bins or columns.

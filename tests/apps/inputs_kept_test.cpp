@@ -1,4 +1,6 @@
 // No command writes its output over a file that it reads, whatever name that file goes by.
+#include <sys/stat.h>
+
 #include "tests/apps/plain_scene.h"
 #include "tests/apps/program.h"
 
@@ -25,7 +27,7 @@ void check_refused(const fs::path& folder, const std::string& words, const std::
 TEST_CASE("track writes over no table but its own, and puts none among those that it reads",
           "[track][inputs]") {
   const TemporaryFolder folder;
-  for (const char* name : {"mine", "tables", "other", "clock"})
+  for (const char* name : {"mine", "tables", "other", "clock", "pipe"})
     fs::create_directory(folder.path() / name);
   for (const char* name : {"m.csv", "mine/measurements.csv", "tables/1.csv"})
     folder.write(name, kDetections);
@@ -38,6 +40,8 @@ TEST_CASE("track writes over no table but its own, and puts none among those tha
   for (const char* out : {"tables", "link", "tables/../tables", "tables/detections"})
     check_refused(folder.path(), std::string("track tables -o ") + out, "--output");
   check_refused(folder.path() / "tables", "track . -o .", "--output");
+  REQUIRE(::mkfifo((folder.path() / "pipe/tracks.csv").c_str(), 0600) == 0);  // nobody writes to it
+  CHECK(track(folder.path() / "m.csv", folder.path() / "pipe").exit_code == 2);
 
   // Below its own folder, beside the input, and once more where it wrote before.
   for (const char* out : {"tables/tracks", "tables/tracks"})

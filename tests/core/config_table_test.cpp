@@ -234,7 +234,7 @@ TEST_CASE("The place of a key is found by its path, and none for what is not the
   CHECK(place("t.x.y[0]") == "8:1");
   CHECK(place_of("box[0].wall")->file == "test.toml");
   for (const char* absent : {"", "box[2].wall", "box[0].wal", "box[0].walls", "box.wall",
-                             "box[x].wall", "box[0", "box[0]wall", "t.x", "none"})
+                             "box[x].wall", "box[].wall", "box[0", "box[0]wall", "t.x", "none"})
     CHECK(place(absent) == "none");
 }
 

@@ -2,8 +2,10 @@
 #include "live/cigi_questions.h"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "core/units.h"

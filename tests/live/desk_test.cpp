@@ -388,8 +388,8 @@ TEST_CASE("What is wrong with values together is told beside those that are wron
     INFO(answer.body);
     CHECK(answer.status == 422);
     Fields fields;
-    for (const json& problem : json::parse(answer.body)["problems"])
-      fields.insert(problem["field"].get<std::string>());
+    const json problems = json::parse(answer.body)["problems"];
+    for (const json& problem : problems) fields.insert(problem["field"].get<std::string>());
     return fields;
   };
   const double high_dB = sensors::GreyScale(office.session->scene()->description.sensor).high_dB();

@@ -115,13 +115,13 @@ TEST_CASE("Whoever ends does not wait for the next look", "[quality][threads]") 
 }
 
 // It took the flight with it.
-TEST_CASE("The error of a frame that finds no memory is not told and that of the next one is",
+TEST_CASE("The error of a frame that cannot be made is not told and that of the next one is",
           "[quality][threads]") {
   const tests::TemporaryFolder folder;
   const auto session = tests::live_session(folder);
   auto endless = std::make_shared<scenes::Scene>(*session->scene());
   endless->plan = {};
-  endless->world.sensor.scan.columns = -1;  // as a size: more than any memory has
+  endless->world.sensor.scan.columns = -1;  // as a size: more than any vector holds
   auto frame = std::make_shared<live::LiveFrame>(*frame_at(*session, 1.0, 1));
   frame->under = session->moment(endless);
   live::Hub hub;

@@ -344,7 +344,7 @@ TEST_CASE("A recording is as it was until its channel begins, and one channel's 
 }
 
 // The recording of a whole flight was refused for it.
-TEST_CASE("A control on several lines is recorded and in force again", "[recording]") {
+TEST_CASE("A control on several lines is recorded and replayed as it came", "[recording]") {
   const tests::TemporaryFolder folder;
   const auto file = folder.path() / "flight.jsonl";
   const std::string body = "{\r\n\t\"rain_rate_mm_per_h\": 4\n}\n";

@@ -166,7 +166,7 @@ std::vector<core::Problem> problems_of_run(const live::RunSettings& settings,
 
 // It went on, with a recording that nobody could read, to a good end.
 TEST_CASE("A run ends with an error when a control of its page finds no room in the recording",
-          "[live][threads]") {
+          "[live]") {
   const tests::TemporaryFolder folder;
   const auto file = folder.path() / "flight.jsonl";
   const live::RunSettings settings{
@@ -202,7 +202,7 @@ TEST_CASE("A run ends with an error when the system refuses its recording as it 
   const tests::TemporaryFolder folder;
   const auto file = folder.path() / "flight.jsonl";
   const live::RunSettings settings{
-      .http = "0", .rays_per_cell = 1.0, .lockstep = true, .record = file.string(), .frames = 2};
+      .rays_per_cell = 1.0, .lockstep = true, .record = file.string(), .frames = 2};
   const live::RunCallbacks calls{
       .open = [&](const std::string&) { return tests::live_session(folder); },
       .page = [](const std::string&, std::uint16_t) {},

@@ -1,4 +1,5 @@
 // Names of materials and runways in a scene: all that are wrong are told in one run, each at its key.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <string>
@@ -138,6 +139,23 @@ TEST_CASE("Wrong names hide nothing that is wrong on the ground, nor the other w
   CHECK(told_of(replaced(text, "runway = \"36\"\nstart", "runway = \"63\"\nstart")) ==
         Told{"9:1 terrain.material", "17:1 box[0].at", "21:1 box[0].roof",
              "27:1 trajectory.ils.runway"});
+}
+
+// A warning of the ground kept the flight from being looked at.
+TEST_CASE("A flight beside a wrong material is told over ground with a warning too",
+          "[scene_names]") {
+  std::string text = replaced(kSmallScene, "\"short_grass\"", "\"brik\"");
+  text = replaced(text, "start_distance_m = 1500.0", "start_distance_m = 3000.0");
+  text +=
+      "[[runway]]\n"  // across the other: W-OVERLAP
+      "first = { name = \"01\", latitude_deg = 52.001, longitude_deg = 9.998, elevation_m = 58.0 "
+      "}\n"
+      "second = { name = \"19\", latitude_deg = 52.008, longitude_deg = 10.002, elevation_m = 60.0 "
+      "}\n";
+  const Told told = told_of(text);
+  CHECK(std::count(told.begin(), told.end(), "9:1 terrain.material") == 1);
+  CHECK(std::count(told.begin(), told.end(), "25:2 trajectory") == 1);
+  CHECK(std::count(told.begin(), told.end(), "28:1 runway") == 1);
 }
 
 TEST_CASE("A wrong row of a flight is told beside a wrong material", "[scene_names]") {
