@@ -32,9 +32,9 @@ TEST_CASE("Scenes that bring all they need build without any data", "[shipped_sc
 TEST_CASE("Scenes on real terrain say exactly what is missing without their data",
           "[shipped_scenes]") {
   const std::vector<std::pair<std::string, std::vector<std::string>>> scenes = {
-      {"innsbruck-26", {"terrain.land_cover.file", "terrain.elevation", "buildings[0].file"}},
+      {"innsbruck-26", {"terrain.elevation", "terrain.land_cover.file", "buildings[0].file"}},
       {"innsbruck-26-airliner",
-       {"terrain.land_cover.file", "terrain.elevation", "buildings[0].file", "trajectory.file"}},
+       {"terrain.elevation", "terrain.land_cover.file", "buildings[0].file", "trajectory.file"}},
       {"keflavik-10", {"terrain.elevation", "trajectory.file"}}};
   for (const auto& [name, fields] : scenes) {
     const tests::Outcome outcome = tests::build(tests::kShippedScenes / name);
