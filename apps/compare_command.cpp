@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 #include <system_error>
+#include <vector>
 
 #include "core/image_compare.h"
 #include "core/text.h"
@@ -85,11 +86,26 @@ bool judge(const fs::path& file, const core::LayerDifference& difference,
   return ok;
 }
 
+// What is wrong with either is told.
+void check_sizes(const fs::path& a, const fs::path& b) {
+  std::vector<core::ImageSize> sizes;
+  core::ProblemList problems;
+  for (const fs::path& file : {a, b}) {
+    try {
+      sizes.push_back(core::image_size(file));
+    } catch (const core::InputError& error) {
+      problems.append(error.problems());
+    }
+  }
+  problems.throw_if_errors();
+  core::check_same_size(sizes[0], sizes[1], a.string(), b.string());
+}
+
 // `map`: where the heat map goes, empty for nowhere; drawn for a pair that is equal only where
 // `always` or where there is one.
 bool compare_files(const fs::path& a, const fs::path& b, const fs::path& map, bool always,
                    const CompareOptions& options, bool quiet) {
-  core::check_same_size(core::image_size(a), core::image_size(b), a.string(), b.string());
+  check_sizes(a, b);
   const core::Image image_a = core::read_image(a), image_b = core::read_image(b);
   bool same = true;
   bool equal = true;
