@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <iostream>
 #include <system_error>
-#include <tuple>
 
 #include "core/files.h"
 #include "session/shipped.h"
@@ -57,17 +56,11 @@ void refuse_output_among(const std::vector<fs::path>& inputs, const fs::path& ou
 }
 
 void print_problems(std::vector<core::Problem> problems) {
-  std::stable_sort(
-      problems.begin(), problems.end(), [](const core::Problem& a, const core::Problem& b) {
-        const auto key = [](const core::Problem& p) {
-          return std::make_tuple(!p.is_error(), p.code == "W-MORE", std::cref(p.place.file),
-                                 p.place.line, p.place.column);
-        };
-        return key(a) < key(b);
-      });
+  const auto is_error = [](const core::Problem& problem) { return problem.is_error(); };
+  core::sort_by_place(problems);
+  const auto warnings = std::stable_partition(problems.begin(), problems.end(), is_error);
   for (const core::Problem& problem : problems) std::cerr << core::to_string(problem) << '\n';
-  const auto errors =
-      std::count_if(problems.begin(), problems.end(), [](const auto& p) { return p.is_error(); });
+  const auto errors = warnings - problems.begin();
   if (errors > 0) std::cerr << errors << (errors == 1 ? " error" : " errors") << "\n";
 }
 

@@ -50,7 +50,7 @@ std::filesystem::path find_scene(const std::string& name);
 void refuse_output_among(const std::vector<std::filesystem::path>& inputs,
                          const std::filesystem::path& output, const std::string& option);
 
-// Prints each problem on a line of its own, errors before warnings, each by file and line, with a
+// Prints each problem on a line of its own, errors before warnings, each by place, with a
 // count at the end.
 void print_problems(std::vector<core::Problem> problems);
 

@@ -135,14 +135,14 @@ fs::path single_map(const CompareOptions& options) {
   return map;
 }
 
-// What cannot be read is told when all others are compared.
+// What fails of a pair is told when all others are compared.
 bool compare_folders(const fs::path& a, const fs::path& b, const CompareOptions& options,
                      bool quiet) {
   const std::set<fs::path> in_a = measure::image_files_below(a);
   const std::set<fs::path> in_b = measure::image_files_below(b);
   bool same = true;
   std::size_t pairs = 0;
-  core::ProblemList unreadable;
+  core::ProblemList failed;
   for (const fs::path& name : in_a) {
     if (in_b.contains(name)) {
       ++pairs;
@@ -151,7 +151,7 @@ bool compare_folders(const fs::path& a, const fs::path& b, const CompareOptions&
         same = compare_files(a / name, b / name, map, false, options, quiet) && same;
       } catch (const core::InputError& error) {
         same = false;
-        unreadable.append(error.problems());
+        failed.append(error.problems());
       }
     } else {
       same = false;
@@ -171,10 +171,10 @@ bool compare_folders(const fs::path& a, const fs::path& b, const CompareOptions&
                             "PNG or EXR images, of the same names below both folders");
   if (!quiet || !same)
     fmt::print("{} pairs of images {}\n", pairs,
-               same                      ? "agree"
-               : unreadable.has_errors() ? "found, some could not be compared"
-                                         : "compared, some differ");
-  unreadable.throw_if_errors();
+               same                  ? "agree"
+               : failed.has_errors() ? "found, some could not be compared"
+                                     : "compared, some differ");
+  failed.throw_if_errors();
   return same;
 }
 

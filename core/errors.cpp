@@ -22,7 +22,9 @@ std::string summary(const std::vector<Problem>& problems) {
   return text;
 }
 
-std::vector<Problem>& sorted_by_place(std::vector<Problem>& problems) {
+}  // namespace
+
+std::vector<Problem>& sort_by_place(std::vector<Problem>& problems) {
   std::map<std::string, std::size_t> met;
   for (const Problem& problem : problems) met.try_emplace(problem.place.file, met.size());
   const auto key = [&](const Problem& problem) {
@@ -33,8 +35,6 @@ std::vector<Problem>& sorted_by_place(std::vector<Problem>& problems) {
                    [&](const Problem& a, const Problem& b) { return key(a) < key(b); });
   return problems;
 }
-
-}  // namespace
 
 std::string_view code(ErrorClass error_class) {
   constexpr std::array<std::string_view, 9> kCodes = {"E-PARSE", "E-RANGE",       "E-NONFINITE",
@@ -93,7 +93,7 @@ Problem shortened(Problem problem) {
 }  // namespace
 
 InputError::InputError(std::vector<Problem> problems)
-    : std::runtime_error(summary(sorted_by_place(problems))), problems_(std::move(problems)) {}
+    : std::runtime_error(summary(sort_by_place(problems))), problems_(std::move(problems)) {}
 
 bool InputError::has(ErrorClass error_class) const {
   for (const Problem& problem : problems_)

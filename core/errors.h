@@ -41,8 +41,10 @@ std::string to_string(const Problem& problem);
 // without an exponent from 1e-4 to 1e7.
 std::string number_text(double value);
 
-// Thrown when an input has at least one error; carries the warnings found beside it too. They are in the order
-// of their places: files as first met, then lines and columns.
+// In the order of their places: files as first met, then lines and columns; W-MORE last. Answers the list.
+std::vector<Problem>& sort_by_place(std::vector<Problem>& problems);
+
+// Thrown when an input has at least one error; carries the warnings found beside it too, in the order of their places.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Problem> problems);
@@ -80,6 +82,7 @@ class ProblemList {
                std::string done);
   void append(const std::vector<Problem>& problems);
 
+  std::size_t errors() const { return errors_; }
   bool has_errors() const { return errors_ > 0; }
   // No further error would be listed.
   bool is_full() const { return errors_ >= kMost; }

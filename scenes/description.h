@@ -274,8 +274,8 @@ struct SceneDescription {
   bool sample = false;  // frames show one realisation, not the expected power
   // False where a runway could not be read, or its name: any name of a runway may be one of those.
   bool runways_known = true;
-  core::KeyPlaces
-      place_of_key;  // in scene.toml; empty without such a file, and once the scene is built
+  // In scene.toml; empty without such a file, and once the scene is built.
+  core::KeyPlaces place_of_key;
   core::ResolvedConfig resolved;  // every setting with its default, for run.json
   // What the scene is made of beside scene.toml; files of models and buildings once they are read.
   std::vector<std::filesystem::path> files;

@@ -1,6 +1,5 @@
 #include "scenes/scene.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -87,11 +86,6 @@ std::shared_ptr<const renderer::Geometry> geometry_of(const Ground& ground,
       std::move(bodies.objects.kinds), std::move(bodies.objects.models)});
 }
 
-auto errors_in(const core::ProblemList& problems) {
-  return std::count_if(problems.all().begin(), problems.all().end(),
-                       [](const core::Problem& problem) { return problem.is_error(); });
-}
-
 }  // namespace
 
 std::unique_ptr<Scene> build_scene(const SceneDescription& description, const BuildOptions& options,
@@ -106,9 +100,9 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   SceneSetting setting{description, options,
                        terrain::LocalFrame(ellipsoidal_origin(description), description.earth)};
   setting.description.place_of_key = nullptr;
-  const auto before = errors_in(problems);
+  const std::size_t before = problems.errors();
   const Ground ground(description, setting.frame, names, problems);
-  const bool can_land = errors_in(problems) == before && !problems.is_full();
+  const bool can_land = problems.errors() == before && !problems.is_full();
   Objects objects;
   objects.add("terrain", renderer::ObjectKind::terrain);
   std::vector<terrain::SurfacePatch> patches =
@@ -119,8 +113,9 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   std::vector<renderer::PointTarget> targets = build_targets(description, ground, problems).points;
   setting.weather = placed_weather(description, ground);
   check_losses(setting.weather, problems);
-  // An approach says nothing of itself where its runway is wrong.
-  if (can_land || description.trajectory.kind != TrajectoryDescription::Kind::ils)
+  // An approach says nothing of itself where its runway is wrong, and nothing stands where no ground is.
+  if (!ground.field().height_m.empty() &&
+      (can_land || description.trajectory.kind != TrajectoryDescription::Kind::ils))
     setting.trajectory = build_trajectory(description, ground, setting.frame, problems);
   std::optional<SiteFacts> stands;
   if (!ground.field().height_m.empty()) {

@@ -15,23 +15,16 @@ bool holds_shipped_files(const fs::path& folder) {
          fs::is_regular_file(folder / "sensors" / "hivision.toml");
 }
 
-// ", perhaps small": of the folders in `beside` that hold a scene, the one that is likely meant.
-std::string likely_beside(const std::string& wanted, const fs::path& beside) {
-  constexpr std::size_t kMostLookedAt = 1000, kLongestCompared = 100;
+// Names of the folders in `folder` that hold a scene, sorted; none where it cannot be read.
+std::vector<std::string> scenes_in(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code refused;
-  fs::directory_iterator entry(beside.empty() ? fs::path(".") : beside, refused);
-  for (std::size_t i = 0; i < kMostLookedAt && entry != fs::directory_iterator(); ++i) {
-    if (fs::is_regular_file(entry->path() / "scene.toml", refused))
+  for (fs::directory_iterator entry(folder, refused), end; !refused && entry != end;
+       entry.increment(refused))
+    if (std::error_code status; fs::is_regular_file(entry->path() / "scene.toml", status))
       names.push_back(entry->path().filename().string());
-    entry.increment(refused);
-  }
   std::sort(names.begin(), names.end());
-  const std::string start = wanted.substr(0, kLongestCompared);
-  for (const std::string& name : core::nearest_names(start, names, 1))
-    if (2 * core::edit_distance(start, name) <= std::max(start.size(), name.size()))
-      return ", perhaps " + name;
-  return {};
+  return names;
 }
 
 // " b a c": those that look most like `wanted` first.
@@ -55,12 +48,7 @@ fs::path shipped_above(const fs::path& file) {
 }
 
 std::vector<std::string> shipped_scenes(const fs::path& shipped) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(shipped / "scenes"))
-    if (fs::is_regular_file(entry.path() / "scene.toml"))
-      names.push_back(entry.path().filename().string());
-  std::sort(names.begin(), names.end());
-  return names;
+  return scenes_in(shipped / "scenes");
 }
 
 std::vector<std::string> shipped_sensors(const fs::path& shipped) {
@@ -76,10 +64,11 @@ fs::path find_scene(const fs::path& name, const fs::path& shipped, const fs::pat
   for (const fs::path& candidate : {beside / name, shipped / name, shipped / "scenes" / name})
     if (fs::is_regular_file(candidate, refused) || fs::exists(candidate / "scene.toml", refused))
       return candidate;
-  core::throw_input_error(core::ErrorClass::io, "scene", "\"" + name.string() + "\" not found",
-                          "a folder with scene.toml" + likely_beside(name.string(), beside) +
-                              ", or one of the shipped scenes:" +
-                              nearest_first(name.string(), shipped_scenes(shipped)));
+  std::vector<std::string> there = scenes_in(beside.empty() ? fs::path(".") : beside);
+  for (const std::string& scene : shipped_scenes(shipped)) there.push_back(scene);
+  core::throw_input_error(
+      core::ErrorClass::io, "scene", "\"" + name.string() + "\" not found",
+      "a folder with scene.toml, or one of the scenes:" + nearest_first(name.string(), there));
 }
 
 fs::path find_sensor(const fs::path& name, const fs::path& shipped, const std::string& field,

@@ -99,7 +99,7 @@ TEST_CASE("Scene, sensor and data folder that are not there are told together", 
   const Result told = run_fanbeam("render flat-gras --sensor hivison --data /nowhere");
   INFO(told.output);
   CHECK(told.exit_code == 4);
-  CHECK(told.output.find("one of the shipped scenes: flat-grass ") != std::string::npos);
+  CHECK(told.output.find("one of the scenes: flat-grass ") != std::string::npos);
   CHECK(told.output.find("--sensor = \"hivison\" not found: expected a sensor file, or one of the "
                          "shipped sensors: hivision ") != std::string::npos);
   CHECK(told.output.find("--data = \"/nowhere\"") != std::string::npos);

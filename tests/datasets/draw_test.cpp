@@ -227,9 +227,9 @@ TEST_CASE("A scene or sensor that is not there is refused by its line beside all
   for (
       const char* part :
       {"campaign.toml:3:1: E-REF campaign.scenes = \"smal\" not found: expected a folder with "
-       "scene.toml, perhaps small, or one of the shipped scenes: ",
+       "scene.toml, or one of the scenes: small ",
        "campaign.toml:3:1: E-REF campaign.scenes = \"flat-gras\" not found: expected a folder with "
-       "scene.toml, or one of the shipped scenes: flat-grass ",
+       "scene.toml, or one of the scenes: flat-grass ",
        "campaign.toml:4:1: E-REF campaign.sensor = \"hivisoin\" not found: expected a sensor file, "
        "or one of the shipped sensors: hivision ",
        "campaign.toml:5:1: E-RANGE campaign.runs = 0"})
