@@ -24,7 +24,8 @@ void add_common_options(CLI::App& command, CommonOptions& common) {
       .add_option("--isa", common.isa,
                   "Use no instructions beyond this level of x86-64 (v2 SSE4.2, v3 AVX2, v4 "
                   "AVX-512), in our kernels and in Embree, for pictures that machines of several "
-                  "kinds are to share (default: the best of this machine)")
+                  "kinds are to share (default: the campaign's or suite's own where there is "
+                  "one, else the best of this machine)")
       ->check(CLI::IsMember({"v2", "v3", "v4"}));
 }
 
