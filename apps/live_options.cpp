@@ -74,8 +74,8 @@ void add_sinks(CLI::App& command, LiveOptions& options) {
       ->capture_default_str();
   command
       .add_option("--token-file", options.token_file,
-                  "Ask of every request for the token on the file's only line, 16 to 256 letters "
-                  "and digits (default: FANBEAM_TOKEN in the environment, else none)")
+                  "Ask of every request for the token on the file's only line, 16 to 256 letters, "
+                  "digits, - . _ or ~ (default: FANBEAM_TOKEN in the environment, else none)")
       ->type_name("FILE");
 }
 
