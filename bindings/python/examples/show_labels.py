@@ -13,7 +13,8 @@ import numpy as np
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-COLOURS = {"building": "tab:cyan", "box": "tab:blue", "model": "tab:red", "target": "tab:orange", "lights": "tab:green"}
+COLOURS = {"building": "tab:cyan", "box": "violet", "model": "tomato", "target": "tab:orange", "lights": "tab:green"}
+LINE, WORD = 13, 25  # rows and columns that a name takes
 CORNERS = ("near_left", "near_right", "far_right", "far_left")
 
 
@@ -29,6 +30,28 @@ def mask_of(mask, picture):
     return np.repeat(values, mask["runs"]).reshape(picture["columns"], picture["rows"]).T
 
 
+def write_names(axis, names):
+    """Beside their boxes, in lines of their own where boxes are close: text, colour, left, right, row of each."""
+    written = []
+    for text, colour, left, right, row in sorted(names, key=lambda name: name[-1]):
+        near = [other for other in names if abs(other[2] - left) < WORD]
+        to_the_left = min(other[2] for other in near) > WORD
+        column = min(other[2] for other in near) - 5 if to_the_left else max(other[3] for other in near) + 5
+        line = max([row] + [other + LINE for at, other in written if abs(at - column) < WORD])
+        written.append((column, line))
+        axis.annotate(
+            text,
+            (left if to_the_left else right, row),
+            (column, line),
+            ha="right" if to_the_left else "left",
+            va="center",
+            color=colour,
+            fontsize=7,
+            arrowprops={"arrowstyle": "-", "color": colour, "lw": 0.6},
+            bbox={"facecolor": "black", "alpha": 0.6, "lw": 0, "pad": 1},
+        )
+
+
 def draw(axis, frame, scope):
     labels, picture = frame.labels, frame.labels[scope]
     axis.imshow(getattr(frame, scope), extent=(0, picture["columns"], picture["rows"], 0), aspect="auto", cmap="gray", vmin=0, vmax=255)
@@ -39,6 +62,7 @@ def draw(axis, frame, scope):
         axis.imshow(shown, extent=(0, picture["columns"], picture["rows"], 0), aspect="auto")
         outline(axis, runway["corners"], scope, color="yellow", lw=1)
         outline(axis, runway["touchdown_zone"], scope, color="lime", lw=1)
+    names = []
     for thing in labels["objects"]:
         colour = COLOURS[thing["group"]]
         for point in thing.get("points", []):
@@ -49,8 +73,9 @@ def draw(axis, frame, scope):
             continue
         axis.add_patch(plt.Rectangle((left, top), width, height, fill=False, color=colour, lw=0.8))
         if thing["group"] != "building":
-            told = f" {thing['signal_to_clutter_dB']:.0f} dB" if thing["signal_to_clutter_dB"] is not None else ""
-            axis.text(left, top - 3, thing["name"] + told, color=colour, fontsize=7)
+            told = f", {thing['signal_to_clutter_dB']:.0f} dB" if thing["signal_to_clutter_dB"] is not None else ""
+            names.append((thing["name"] + told, colour, left, left + width, top + height / 2))
+    write_names(axis, names)
     axis.set(xlim=(0, picture["columns"]), ylim=(picture["rows"], 0), title=scope, xlabel="column", ylabel="row")
 
 
