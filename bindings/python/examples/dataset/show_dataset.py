@@ -52,8 +52,8 @@ def draw_parameters(rows, file):
             axis.hist(numbers, bins)
             axis.set_xscale("log" if skewed else "linear")
         else:
-            words = sorted(set(values), key=lambda word: float(word) if is_number(word) else 0)
-            axis.bar([word[:12] for word in words], [values.count(word) for word in words])
+            words = sorted(set(values), key=lambda word: (float(word) if is_number(word) else 0, word))
+            axis.bar(words, [values.count(word) for word in words])
         axis.set_title(name, fontsize=9)
         axis.tick_params(labelsize=7)
     figure.supylabel("runs")
