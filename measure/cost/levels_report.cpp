@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 #include "core/errors.h"
 
 namespace fanbeam::measure {
@@ -75,6 +77,10 @@ session::Plot levels_plot(const CostFigures& figures) {
     if (step.level != kPicture)
       plot.labels.push_back({step.time.ms, step.rms_grey, fineness_text(step)});
   }
+  // The names of both rates stay inside the plot.
+  double low_ms = kTime90Hz_ms;
+  for (const LevelStep& step : figures.levels) low_ms = std::min(low_ms, step.time.ms);
+  plot.x.low = 0.8 * low_ms;
   plot.marks = {{kTime90Hz_ms, "90 Hz"}, {kTime16Hz_ms, "16 Hz"}};
   // The last name stands right of its point.
   if (!figures.levels.empty()) plot.x.high = 3.0 * figures.levels.back().time.ms;

@@ -22,13 +22,29 @@ namespace fs = std::filesystem;
 constexpr std::array<const char*, 8> kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                  "#56b4e9", "#e69f00", "#000000", "#8c6d1f"};
 
+// gnuplot has those of a logarithmic axis at powers of ten, of which a short one holds one or two:
+// there twice and five times those too.
+std::string tick_commands(char name, const PlotAxis& axis) {
+  constexpr double kShort = 100.0;
+  if (!axis.logarithmic || !axis.low || !axis.high || !(*axis.low > 0.0) ||
+      *axis.high > kShort * *axis.low)
+    return "";
+  std::string text;
+  for (double power = std::pow(10.0, std::floor(std::log10(*axis.low))); power <= *axis.high;
+       power *= 10.0)
+    for (const double tick : {2.0 * power, 5.0 * power})
+      text += fmt::format("{}{:.6g}", text.empty() ? "" : ", ", tick);
+  return fmt::format("set {}tics add ({})\n", name, text);
+}
+
 std::string axis_commands(char name, const PlotAxis& axis) {
   const auto end = [](const std::optional<double>& value) {
     return value ? core::number_text(*value) : std::string("*");
   };
   std::string text = fmt::format("set {}label {} noenhanced\n", name, gnuplot_text(axis.label));
   if (axis.logarithmic) text += fmt::format("set logscale {}\n", name);
-  return text + fmt::format("set {}range [{}:{}]\n", name, end(axis.low), end(axis.high));
+  return text + fmt::format("set {}range [{}:{}]\n", name, end(axis.low), end(axis.high)) +
+         tick_commands(name, axis);
 }
 
 std::string style_of(const PlotSeries& series, std::size_t index) {
@@ -125,7 +141,7 @@ std::string gnuplot_script(const Plot& plot, const fs::path& output) {
   text += fmt::format("set title {} noenhanced\n", gnuplot_text(plot.title));
   text += axis_commands('x', plot.x) + axis_commands('y', plot.y);
   text += fmt::format("set grid lt 1 lc rgb '#d0d0d0'\nset key {} noenhanced maxcols {}\n",
-                      plot.key_below ? "below left Left reverse" : "outside right top",
+                      plot.key_below ? "below left Left reverse height 1" : "outside right top",
                       plot.key_below ? 2 : 1);
   text += mark_commands(plot);
   for (std::size_t i = 0; i < plot.series.size(); ++i) text += data_block(plot.series[i], i);

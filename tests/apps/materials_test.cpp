@@ -109,12 +109,16 @@ TEST_CASE("A plot's script quotes texts, leaves gaps and does not depend on anyt
   Plot plot;
   plot.title = "it's\nhere";
   plot.x = {"x", true, 1.0, {}};
+  plot.y = {"y", true, 1.5, 80.0};
   plot.series = {{"one", {1.0, 2.0, 3.0}, {1.0, std::nan(""), 3.0}, PlotSeries::Style::points}};
   const std::string script = gnuplot_script(plot, "out.svg");
   CHECK(script.find("set terminal svg size 960,640") != std::string::npos);
   CHECK(script.find("set title 'it''s here'") != std::string::npos);
   CHECK(script.find("set logscale x\n") != std::string::npos);
   CHECK(script.find("set xrange [1:*]") != std::string::npos);
+  // A short logarithmic axis holds one power of ten, 10.
+  CHECK(script.find("set ytics add (2, 5, 20, 50)\n") != std::string::npos);
+  CHECK(script.find("set xtics") == std::string::npos);
   CHECK(script.find("$series0 << END\n1 1\n\n3 3\nEND\n") != std::string::npos);
   CHECK(script == gnuplot_script(plot, "out.svg"));
 }
