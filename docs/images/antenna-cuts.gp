@@ -18,7 +18,7 @@ set xlabel "depression below the horizon, degrees"
 set ylabel "one-way gain over the peak, dB"
 set xrange [-30:60]
 set yrange [-45:2]
-set key outside bottom center horizontal
+set key outside bottom center horizontal height 1
 set title "Elevation cuts of 10 deg"
 plot dB(gauss(x)) title "gaussian" lw 2, \
      dB(sinc2(x)) title "sinc-squared" lw 1, \
