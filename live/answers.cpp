@@ -75,7 +75,7 @@ std::string metrics_text(const Status& status) {
   add("slowest_frame_seconds", "gauge", "Slowest frame of two seconds.", 1e-3 * status.slowest_ms);
   add("pose_age_seconds", "gauge", "Age of the newest pose.", 1e-3 * status.pose_age_ms);
   add("waiting", "gauge", "1 before the first pose.", status.waiting ? 1.0 : 0.0);
-  add("stale", "gauge", "1 where the newest pose is older than a second: the picture stands.",
+  add("stale", "gauge", "1 where no pose of the last second could be rendered: the picture stands.",
       status.stale ? 1.0 : 0.0);
   if (status.height_offset_m)
     add("height_offset_metres", "gauge", "The source's height above ground less the scene's.",

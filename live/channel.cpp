@@ -63,6 +63,7 @@ class Channel {
     status.stray_poses = seen->strays;
     if (maker_.stands(seen->age_s)) return;
     const auto made = maker_.make(tick, *seen, stop);
+    if (!made && stop.reason() == 0) maker_.stands_refused(tick.now_s);
     if (made && !(settings_.samples > 0.0))
       maker_.sample(pace_.after(maker_.now_s(), made->frame_s, made->outside_volume));
   }

@@ -10,6 +10,12 @@
 #include "sensors/display/grey_scale.h"
 
 namespace fanbeam::live {
+namespace {
+
+// A picture that is older than that is out of date.
+constexpr double kStale_s = 1.0;
+
+}  // namespace
 
 FrameMaker::FrameMaker(session::Session& session, Hub& hub, const ChannelSettings& settings)
     : session_(session),
@@ -75,6 +81,7 @@ std::optional<FrameMaker::Made> FrameMaker::make(const Tick& tick, const Sightin
     journal_made(true);
     ++status_.refused;
     status_.refusal = core::to_string(error.problems().front());
+    look_back();
     return std::nullopt;
   } catch (const core::Stopped&) {
     journal_made(false);
@@ -84,6 +91,7 @@ std::optional<FrameMaker::Made> FrameMaker::make(const Tick& tick, const Sightin
   const double frame_s = seconds_between(from, Clock::now());
   ++status_.frames;
   frame->number = number_ = tick.number;
+  shown_s_ = tick.now_s;
   frame->pose = seen.pose;
   frame->under = under;
   frame->samples = status_.samples;
@@ -99,23 +107,30 @@ std::optional<FrameMaker::Made> FrameMaker::make(const Tick& tick, const Sightin
 }
 
 bool FrameMaker::stands(double age_s) {
-  constexpr double kStale_s = 1.0;
-  const bool was_stale = std::exchange(status_.stale, age_s > kStale_s);
+  status_.stale = age_s > kStale_s;
   if (!status_.stale) return false;
   status_.pose_age_ms = 1e3 * age_s;
-  if (!was_stale) show_stale();
+  show_stale(status_.pose_age_ms);
   look_back();
   return true;
 }
 
-void FrameMaker::show_stale() {
+bool FrameMaker::stands_refused(double now_s) {
   const std::shared_ptr<const LiveFrame> newest = hub_.newest();
-  if (!newest) return;
+  const double since_s = now_s - shown_s_;
+  status_.stale = newest && since_s > kStale_s;
+  return status_.stale && show_stale(newest->pose_age_ms + 1e3 * since_s);
+}
+
+bool FrameMaker::show_stale(double pose_age_ms) {
+  const std::shared_ptr<const LiveFrame> newest = hub_.newest();
+  if (!newest || newest->stale) return false;
   auto frame = std::make_shared<LiveFrame>(*newest);
   frame->number = ++number_;
   frame->stale = true;
-  frame->pose_age_ms = status_.pose_age_ms;
+  frame->pose_age_ms = pose_age_ms;
   hub_.publish(std::move(frame));
+  return true;
 }
 
 double FrameMaker::processor_s() const {

@@ -50,6 +50,9 @@ class FrameMaker {
   // Whether the newest pose, which is so old, is out of date. At the first time that it is, the newest frame is
   // shown once more as such.
   bool stands(double age_s);
+  // Behind a pose that was refused, at tick.now_s: where no other could be rendered for a second, the newest frame
+  // is as out of date. Gives whether it was shown once more just now.
+  bool stands_refused(double now_s);
 
   Status& status() { return status_; }
   double now_s() const { return seconds_between(settings_.begin, Clock::now()); }
@@ -62,7 +65,8 @@ class FrameMaker {
   // Its pictures; throws what Session::render throws.
   std::shared_ptr<LiveFrame> rendered(const session::Session::Moment& under, const Tick& tick,
                                       const core::Pose& pose, const core::StopToken& stop);
-  void show_stale();
+  // Unless it is shown so already, or there is none.
+  bool show_stale(double pose_age_ms);
   // Of the last two seconds up to now.
   void look_back();
   // Spent on frames so far.
@@ -74,6 +78,7 @@ class FrameMaker {
   ChannelSettings settings_;
   Status status_;
   std::uint64_t number_ = 0;   // of the newest frame that was shown, also once more as a stale one
+  double shown_s_ = 0.0;       // tick.now_s of the newest one that was rendered
   double told_samples_ = 0.0;  // 0: none
   std::deque<std::pair<double, double>> recent_;  // of two seconds: end, milliseconds taken
 };

@@ -38,10 +38,10 @@ struct LiveFrame {
   std::vector<double> received_W{};
   double samples = 0.0;  // as fanbeam render --rays-per-cell takes it
   double frame_ms = 0.0;
-  double pose_age_ms = 0.0;               // between the pose's arrival and the frame's beginning
-  double began_s = 0.0;                   // then, by CLOCK_MONOTONIC; of a stale one: the picture's
-  bool outside_volume = false;            // made by a plan of its own (session.h)
-  bool stale = false;                     // shown once more, as no pose came for a second
+  double pose_age_ms = 0.0;     // between the pose's arrival and the frame's beginning
+  double began_s = 0.0;         // then, by CLOCK_MONOTONIC; of a stale one: the picture's
+  bool outside_volume = false;  // made by a plan of its own (session.h)
+  bool stale = false;           // shown once more, as no pose of a second could be rendered
   std::optional<PictureErrors> errors{};  // of its sampling, as far as they were known
 };
 
@@ -69,7 +69,7 @@ struct Status {
   double pose_age_ms = 0.0, samples = 0.0;
   std::optional<PictureErrors> errors;  // of this sampling, once they are known (quality.h)
   bool waiting = true;                  // no pose yet
-  bool stale = false;  // the newest pose is older than a second: the picture stands
+  bool stale = false;  // no pose of the last second could be rendered: the picture stands
   // Of all sources that listen: packets, and those of no use by reason. Of the one whose poses count:
   // the median of its height above ground less ours over the last five seconds (live/feed.h).
   std::uint64_t packets = 0;

@@ -70,8 +70,9 @@ class Replay {
     if (!shows) return;
     maker_.sample(frame.samples);
     const auto seen = sighting(frame.tick);
-    // One that is refused leaves its number to the next.
-    if (seen && !maker_.make(frame.tick, *seen, stop_)) --last_number_;
+    // One that is refused leaves its number to the next, or to the picture that is shown once more.
+    if (seen && !maker_.make(frame.tick, *seen, stop_) && !stands_refused(frame.tick))
+      --last_number_;
     told_(maker_.status());
     hub_.tell(maker_.status());
   }
@@ -98,6 +99,11 @@ class Replay {
     if (!known_s_ || !maker_.stands(now_s - *known_s_)) return;
     told_(maker_.status());
     hub_.tell(maker_.status());
+  }
+
+  // In time, as the channel did.
+  bool stands_refused(const Tick& tick) {
+    return !settings_.lockstep && stop_.reason() == 0 && maker_.stands_refused(tick.now_s);
   }
 
   std::optional<Sighting> sighting(const Tick& tick) const {

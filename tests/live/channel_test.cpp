@@ -59,6 +59,43 @@ TEST_CASE("F13 a second without a pose shows the last picture once more, as out 
   }
 }
 
+// Rate, age and picture were those of a flight, for as long as every pose was refused.
+TEST_CASE(
+    "F13 a second of poses that are refused shows the last picture once more, and the rate falls",
+    "[channel][threads]") {
+  const tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  const core::Pose here = live::circle(*session->scene())(1.0);
+  core::Pose elsewhere = here;
+  elsewhere.position.latitude_rad = 0.0;
+  live::Hub hub;
+  core::StopSource stop;
+  bool fallen = false;
+  const live::PoseSource source = [&](double, double) {
+    const bool refused = hub.status().frames >= 5 && !fallen;
+    return std::optional(live::Sighting{refused ? elsewhere : here});
+  };
+  std::vector<std::shared_ptr<const live::LiveFrame>> frames;
+  const auto told = [&](live::Status& status) {
+    const auto newest = hub.newest();
+    REQUIRE(newest);
+    if (frames.empty() || frames.back()->number != newest->number) frames.push_back(newest);
+    CHECK(status.stale == newest->stale);
+    if (fallen && !status.stale) stop.request();
+    fallen = fallen || (status.stale && status.rate_Hz == 0.0);
+  };
+  live::run_channel(*session, source, {20.0, 1.0}, hub, told, stop.token());
+  REQUIRE(frames.size() == 7);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    CHECK(frames[i]->number == i + 1);
+    CHECK(frames[i]->stale == (i == 5));
+  }
+  CHECK(frames[5]->pose_age_ms > 1000.0);
+  CHECK(frames[5]->bscope.pixels == frames[4]->bscope.pixels);
+  CHECK(hub.status().frames == 6);
+  CHECK(hub.status().refused > 10);
+}
+
 // A number runs ahead of the frames with each picture that is shown once more: readers of shared memory, who take
 // numbers that rise, missed as many frames of the next scene.
 TEST_CASE("Frames of a scene that follows another go on from its newest number", "[channel]") {

@@ -190,21 +190,23 @@ TEST_CASE("F13 a replay in time shows a picture as out of date where the channel
   frame(2, 0.3, 0.0);  // too far away: refused
   frame(3, 3.1);       // 2 was the first once more
   frame(4, 4.9);       // the one before took long
+  frame(5, 6.0, 0.0);  // refused, and no other for a second: the one before once more
+  frame(6, 6.2);
   live::Hub hub;
   const live::Desk desk(*session, hub);
   Frames frames;
   core::StopSource stop;
   live::run_replay(*session, recording, {&feed}, nullptr, desk, {.speed = 2.0}, hub,
                    keeping(frames, hub, stop, 1'000'000), stop.token());
-  REQUIRE(frames.size() == 4);
+  REQUIRE(frames.size() == 6);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     CHECK(frames[i]->number == i + 1);
-    CHECK(frames[i]->stale == (i == 1));
+    CHECK(frames[i]->stale == (i == 1 || i == 4));
   }
   CHECK(frames[1]->bscope.pixels == frames[0]->bscope.pixels);
   CHECK(frames[1]->pose_age_ms > 1000.0);
-  CHECK(hub.status().frames == 3);
-  CHECK(hub.status().refused == 1);
+  CHECK(hub.status().frames == 4);
+  CHECK(hub.status().refused == 2);
   CHECK_FALSE(hub.status().stale);
 }
 
