@@ -15,13 +15,22 @@ namespace fanbeam::live {
 
 OwnFile::OwnFile(std::filesystem::path file, std::string field, std::string expected)
     : file_(std::move(file)), field_(std::move(field)), expected_(std::move(expected)) {
-  constexpr int kFlags = O_WRONLY | O_CREAT | O_CLOEXEC;
+  // Opening a named pipe waits for whoever reads from it, and swallows signals meanwhile.
+  constexpr int kFlags = O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK;
   descriptor_ = ::open(file_.c_str(), kFlags | O_EXCL, 0666);
   made_ = descriptor_ >= 0;
   if (!made_) descriptor_ = ::open(file_.c_str(), kFlags, 0666);
-  if (descriptor_ < 0) refuse(errno);
+  const int reason = errno;
   struct stat facts {};
-  regular_ = ::fstat(descriptor_, &facts) == 0 && S_ISREG(facts.st_mode);
+  const bool opened = descriptor_ >= 0;
+  const bool known = (opened ? ::fstat(descriptor_, &facts) : ::stat(file_.c_str(), &facts)) == 0;
+  if (known && (S_ISFIFO(facts.st_mode) || S_ISSOCK(facts.st_mode))) {
+    if (opened) ::close(descriptor_);
+    refuse("not a file");
+  }
+  if (!opened) refuse(reason);
+  ::fcntl(descriptor_, F_SETFL, 0);
+  regular_ = known && S_ISREG(facts.st_mode);
   // A file system without locks refuses otherwise, and is written to all the same.
   if (regular_ && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(descriptor_);

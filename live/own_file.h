@@ -10,7 +10,8 @@ namespace fanbeam::live {
 
 class OwnFile {
  public:
-  // `field` and `expected` are what errors say. Throws InputError E-IO, also where the file is open so already.
+  // `field` and `expected` are what errors say. Throws InputError E-IO, also where the file is open so already, and
+  // for a pipe or a socket, named or not. A device is taken.
   OwnFile(std::filesystem::path file, std::string field, std::string expected);
   ~OwnFile();  // a file that was made and never begun goes again
   OwnFile(const OwnFile&) = delete;
@@ -19,7 +20,7 @@ class OwnFile {
   // What was in it is gone. Once.
   void begin();
   int descriptor() const { return descriptor_; }
-  // Throw InputError E-IO. Of bytes that are refused a file keeps none; what a pipe took is gone.
+  // Throw InputError E-IO. Of bytes that are refused a file keeps none; what a device took is gone.
   void write(std::string_view bytes);
   void close();
 
