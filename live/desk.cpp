@@ -178,6 +178,7 @@ Answer Desk::answer(const Request& request) const {
   try {
     if (asks) return get(path, request.target.substr(path.size()));
     if (!is_control(path)) return refusal(404, "no such control");
+    if (replays_) return refusal(409, "a recording is flown");
     control(path, request.body);
     return get(path, {});
   } catch (const core::InputError& error) {

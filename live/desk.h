@@ -15,7 +15,8 @@
 //                            and snow may be there together
 //
 // Answers of /api are JSON (docs/live.md has the keys). A POST with anything wrong in it changes
-// nothing and is answered 422 with all problems: code, field, value, expected.
+// nothing and is answered 422 with all problems: code, field, value, expected. While a recording is flown,
+// a POST to either is answered 409.
 //
 //   GET  /api/map            the runways, for a plan view
 //   GET  /api/openapi.json   all of this, for programs
@@ -40,12 +41,15 @@ namespace fanbeam::live {
 
 class Desk {
  public:
-  // Controls that are obeyed go into `journal` unless it is null. All must outlive it.
-  Desk(session::Session& session, const Hub& hub, Journal* journal = nullptr, Access access = {})
+  // Controls that are obeyed go into `journal` unless it is null. All must outlive it. Where a recording is flown,
+  // nobody else's controls than its own are obeyed.
+  Desk(session::Session& session, const Hub& hub, Journal* journal = nullptr, Access access = {},
+       bool replays = false)
       : session_(session),
         hub_(hub),
         journal_(journal),
         access_(std::move(access)),
+        replays_(replays),
         truth_(session, hub) {}
 
   const Access& access() const { return access_; }
@@ -53,7 +57,7 @@ class Desk {
   static bool renders(const Request& request);
   // Thread-safe. Never throws for what stands in the request.
   Answer answer(const Request& request) const;
-  // What a POST with that body does. Throws InputError with all that is wrong, and changes nothing then.
+  // What a POST with that body does, and a control of a recording. Throws InputError with all that is wrong, and changes nothing then.
   // What `journal` cannot write is no fault of the body's: the control is in force, and the flight ends.
   void control(const std::string& path, const std::string& body) const;
   // A POST to /api/weather with what `body_of` makes of the weather of now: no control comes in between.
@@ -69,6 +73,7 @@ class Desk {
   const Hub& hub_;
   Journal* journal_;
   Access access_;
+  bool replays_;
   Truth truth_;
   mutable std::mutex controls_;  // one after the other
 };

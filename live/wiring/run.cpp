@@ -218,7 +218,8 @@ class LiveRun {
           settings_.record,
           FlownBy{scene_->description.name, settings_.from, rate_Hz_, settings_.lockstep,
                   scene_->description.sensor.name, settings_.effects});
-    return {*session_, hub_, journal_ ? &*journal_ : nullptr, wiring_.access};
+    return {*session_, hub_, journal_ ? &*journal_ : nullptr, wiring_.access,
+            recording_ != nullptr};
   }
 
   PoseSource heard_poses(const ChannelSettings& settings) {

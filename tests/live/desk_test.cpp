@@ -230,6 +230,25 @@ TEST_CASE("Weather and tilt reach the session; what is wrong is told whole and c
   CHECK(office.desk.answer(post("/api/sensor", std::string(60000, '['))).status == 422);
 }
 
+// It was obeyed, and the pictures were no longer those that had been recorded.
+TEST_CASE("While a recording is flown its own controls are obeyed and no others", "[desk]") {
+  const Office office;
+  const live::Desk desk(*office.session, office.hub, nullptr, {}, true);
+  const std::string rain = R"({"rain_rate_mm_per_h": 9})";
+  for (const auto& [path, body] : {std::pair<std::string, std::string>{"/api/weather", rain},
+                                   {"/api/sensor", R"({"tilt_deg": -2})"},
+                                   {"/api/weather", "nonsense"}}) {
+    const live::Answer refused = desk.answer(post(path, body));
+    CHECK(refused.status == 409);
+    CHECK(json::parse(refused.body)["error"] == "a recording is flown");
+  }
+  CHECK(desk.answer(post("/api/plan", rain)).status == 404);
+  CHECK(desk.answer(get("/api/weather")).status == 200);
+  CHECK(office.session->scene()->weather.rain_rate_mm_per_h == 0.0);
+  desk.control("/api/weather", rain);
+  CHECK(office.session->scene()->weather.rain_rate_mm_per_h == 9.0);
+}
+
 TEST_CASE("Another web page cannot steer", "[desk]") {
   const Office office;
   const std::string rain = R"({"rain_rate_mm_per_h": 9})";

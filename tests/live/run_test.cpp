@@ -218,3 +218,38 @@ TEST_CASE("A run ends with an error when the system refuses its recording as it 
   CHECK(problems[0].place.file == file.string());
   CHECK(live::read_recording(file).events.size() == 2);
 }
+
+// What was posted changed the replay.
+TEST_CASE("The page of a run that flies a recording changes nothing of it", "[live]") {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.write(
+      "flight.jsonl",
+      R"({"fanbeam_live":1,"scene":"test","from":["circle"],"rate_Hz":16,"lockstep":true})"
+      "\n"
+      R"({"control":"/api/weather","body":"{\"rain_rate_mm_per_h\": 4}"})"
+      "\n"
+      R"({"frame":1,"now_s":0.1,"at_s":0.1,"samples":1})"
+      "\n");
+  const live::Recording recording = live::read_recording(file);
+  const live::RunSettings settings{.http = "0", .lockstep = true, .replay = file.string()};
+  session::Session* flown = nullptr;
+  std::uint16_t page = 0;
+  std::string answer;
+  const live::RunCallbacks calls{
+      .open =
+          [&](const std::string&) {
+            auto session = tests::live_session(folder);
+            flown = session.get();
+            return session;
+          },
+      .page = [&](const std::string&, std::uint16_t port) { page = port; },
+      .status =
+          [&] {
+            return [&](const live::Status&, int) {
+              answer = answer_to_control(page, "/api/weather", R"({"rain_rate_mm_per_h": 50})");
+              CHECK(flown->scene()->weather.rain_rate_mm_per_h == 4.0);
+            };
+          }};
+  live::run_live(settings, live::wiring_of(settings, nullptr), &recording, "here", calls);
+  CHECK(answer.starts_with("HTTP/1.1 409"));
+}
