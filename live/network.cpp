@@ -1,9 +1,11 @@
 #include "live/network.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <charconv>
 #include <chrono>
+#include <deque>
 #include <exception>
 #include <optional>
 #include <thread>
@@ -20,6 +22,8 @@ namespace {
 constexpr int kMostConnections = 32;
 constexpr std::uint32_t kMostHeader_bytes = 8u << 10;
 constexpr std::uint64_t kMostBody_bytes = 64u << 10;
+// For the first header of who may be anybody, and for the rest of what is too large.
+constexpr std::chrono::milliseconds kStranger{5'000};
 
 std::string text_of(beast::string_view text) { return {text.data(), text.size()}; }
 
@@ -40,27 +44,68 @@ Request request_of(const HttpRequest& request) {
 class Visitor : public std::enable_shared_from_this<Visitor> {
  public:
   Visitor(tcp::socket socket, Room& room)
-      : stream_(std::move(socket)), room_(room), connection_(room.connections) {}
+      : stream_(std::move(socket)), room_(room), connection_(std::in_place, room.connections) {}
 
   void read() {
     parser_.emplace();
     parser_->header_limit(kMostHeader_bytes);
     parser_->body_limit(kMostBody_bytes);
-    stream_.expires_after(room_.patience);
-    http::async_read(stream_, buffer_, *parser_,
-                     [self = shared_from_this()](error_code error, std::size_t) {
-                       if (!error) self->take(self->parser_->release());
-                     });
+    // Between two requests one may be silent.
+    stream_.expires_after(is_stranger_ ? std::min(room_.patience, kStranger) : room_.patience);
+    http::async_read_header(stream_, buffer_, *parser_,
+                            [self = shared_from_this()](error_code error, std::size_t) {
+                              if (error) return self->refuse(error);
+                              self->read_body();
+                            });
+  }
+
+  // Sent no whole request that was let in.
+  bool is_stranger() const { return is_stranger_; }
+  // Its place is free at once.
+  void leave() {
+    connection_.reset();
+    stream_.close();
   }
 
  private:
+  void read_body() {
+    stream_.expires_after(room_.patience);
+    http::async_read(stream_, buffer_, *parser_,
+                     [self = shared_from_this()](error_code error, std::size_t) {
+                       if (error) return self->refuse(error);
+                       self->take(self->parser_->release());
+                     });
+  }
+
+  // What is no HTTP ends the connection without a word.
+  void refuse(error_code error) {
+    const bool header = error == http::error::header_limit;
+    if (!header && error != http::error::body_limit) return;
+    HttpRequest none;
+    none.version(11);
+    none.keep_alive(false);
+    is_too_large_ = true;
+    answer(none, header ? refusal(431, "a header of at most 8 KiB")
+                        : refusal(413, "a body of at most 64 KiB"));
+  }
+
+  // Closed before all came that was sent, the connection would be reset, and the answer lost on its way.
+  void pass_over() {
+    stream_.async_read_some(asio::buffer(passed_over_),
+                            [self = shared_from_this()](error_code error, std::size_t) {
+                              if (!error) self->pass_over();
+                            });
+  }
+
   void take(const HttpRequest& request) {
+    if (!connection_) return;  // left meanwhile
     Request asked = request_of(request);
     const std::string path = asked.path();
+    const std::optional<Answer> refused = room_.desk.access().refuse(asked);
+    if (!refused) is_stranger_ = false;
     const bool by_socket = websocket::is_upgrade(request) && path == "/ws";
     const bool by_stream = asked.method == "GET" && is_stream(path);
     if (by_socket || by_stream) {
-      const std::optional<Answer> refused = room_.desk.access().refuse(asked);
       if (refused) return answer(request, *refused);
       stream_.expires_never();
       if (by_socket) return watch_by_socket(stream_.release_socket(), request, room_);
@@ -108,12 +153,17 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
                         if (self->response_->keep_alive()) return self->read();
                         error_code ignored;
                         self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+                        if (!self->is_too_large_) return;
+                        self->stream_.expires_after(std::min(self->room_.patience, kStranger));
+                        self->pass_over();
                       });
   }
 
   beast::tcp_stream stream_;
   Room& room_;
-  Counted connection_;
+  std::optional<Counted> connection_;
+  bool is_stranger_ = true, is_too_large_ = false;
+  std::array<char, 4096> passed_over_{};
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
   std::optional<http::response<http::string_body>> response_;
@@ -191,11 +241,33 @@ struct Network::Inside {
     acceptor.async_accept([this, &acceptor](error_code error, tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
       if (error) return accept_later(acceptor);
+      forget_those_heard();
+      if (room.connections >= kMostConnections) make_room();
       // One too many is closed at once.
-      if (room.connections < kMostConnections)
-        std::make_shared<Visitor>(std::move(socket), room)->read();
+      if (room.connections < kMostConnections) let_in(std::move(socket));
       accept(acceptor);
     });
+  }
+
+  void let_in(tcp::socket socket) {
+    const auto visitor = std::make_shared<Visitor>(std::move(socket), room);
+    strangers.push_back(visitor);
+    visitor->read();
+  }
+
+  // And those that left, each of which keeps its memory until then.
+  void forget_those_heard() {
+    std::erase_if(strangers, [](const std::weak_ptr<Visitor>& one) {
+      const std::shared_ptr<Visitor> visitor = one.lock();
+      return !visitor || !visitor->is_stranger();
+    });
+  }
+
+  // Whoever connects and sends nothing would shut everybody out.
+  void make_room() {
+    if (strangers.empty()) return;
+    if (const std::shared_ptr<Visitor> oldest = strangers.front().lock()) oldest->leave();
+    strangers.pop_front();
   }
 
   // No descriptors are left, say: to try at once would be a busy loop.
@@ -238,6 +310,7 @@ struct Network::Inside {
 
   Hub& hub;
   Room room;
+  std::deque<std::weak_ptr<Visitor>> strangers;  // oldest first, and those that were heard since
   asio::io_context context{1}, datagrams{1};
   std::vector<std::unique_ptr<tcp::acceptor>> acceptors;
   std::vector<std::unique_ptr<Receiver>> receivers;
