@@ -34,6 +34,8 @@ class Databases {
   bool is_ready(std::int8_t wanted);
   // That scene, which is the current one from now on; null where none is ready.
   std::unique_ptr<session::Session> take();
+  // The same, which is not the current one yet.
+  const session::Session* ready() const { return ready_.get(); }
 
  private:
   Opener opener_;

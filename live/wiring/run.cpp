@@ -187,6 +187,7 @@ class LiveRun {
     const std::int8_t wanted = ig->wanted_database();
     try {
       if (!continued_.databases.is_ready(wanted)) return false;
+      continued_.sinks.check_raw_size(continued_.databases.ready()->scene()->description);
     } catch (const core::InputError& error) {
       ig->refuse_database(wanted, core::to_string(error.problems().front()));
       return false;

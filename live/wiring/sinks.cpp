@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <filesystem>
+#include <utility>
 
 #include "core/errors.h"
 #include "live/wiring/words.h"
@@ -111,6 +112,16 @@ void add_raw(const std::string& text, const RawSink& sink, FramesTo& to) {
   to.raw.push_back(sink);
 }
 
+// Columns and rows.
+std::pair<int, int> raw_size(RawFrames::Scope scope, const sensors::Sensor& sensor) {
+  const bool bscope = scope == RawFrames::Scope::bscope;
+  return {sensor.scan.columns, bscope ? sensor.range.cells : sensor.display.cscope_rows};
+}
+
+std::string told_size(const std::pair<int, int>& size) {
+  return std::to_string(size.first) + "x" + std::to_string(size.second);
+}
+
 }  // namespace
 
 bool FramesTo::take_stdout() const {
@@ -148,6 +159,19 @@ void Sinks::begin(const scenes::SceneDescription& scene, double rate_Hz) {
   for (const RawSink& sink : to_.raw)
     raw_.push_back(std::make_unique<RawFrames>(sink.scope, sink.file, every_frame_));
   for (const auto& raw : raw_) raw->begin();
+  raw_sensor_ = scene.sensor;
+}
+
+void Sinks::check_raw_size(const scenes::SceneDescription& next) const {
+  core::ProblemList problems;
+  for (const RawSink& sink : to_.raw) {
+    const auto now = raw_size(sink.scope, raw_sensor_), then = raw_size(sink.scope, next.sensor);
+    if (now != then)
+      problems.error(core::ErrorClass::unsupported, {}, "--to", "\"" + sink.file + "\"",
+                     "pictures of " + told_size(now) + " as before: those of " + next.name +
+                         " are of " + told_size(then));
+  }
+  problems.throw_if_errors();
 }
 
 void Sinks::write(const std::shared_ptr<const LiveFrame>& frame) {

@@ -36,6 +36,9 @@ class Sinks {
   Sinks(const FramesTo& to, bool every_frame) : to_(to), every_frame_(every_frame) {}
   // Frames are that scene's from now on. Files and pipes are opened the first time and stay open.
   void begin(const scenes::SceneDescription& scene, double rate_Hz);
+  // Behind begin(). Raw video has no word for another size of its pictures: throws InputError (E-UNSUPPORTED) where
+  // that scene's are of another one.
+  void check_raw_size(const scenes::SceneDescription& next) const;
   void write(const std::shared_ptr<const LiveFrame>& frame);
   bool any_ended() const;
   // No more frames. Throws InputError E-IO with all that could not be written.
@@ -46,6 +49,7 @@ class Sinks {
   bool every_frame_;
   std::vector<std::unique_ptr<SharedFrames>> shared_;
   std::vector<std::unique_ptr<RawFrames>> raw_;
+  sensors::Sensor raw_sensor_;  // that their pictures are of
   std::vector<std::unique_ptr<RadarVideo>> video_;
 };
 

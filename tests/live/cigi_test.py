@@ -265,6 +265,41 @@ class Cigi(unittest.TestCase):
         seen = [int(row[0]) for row in self.tshark(host, "cigi.sof.db_number") if row[0]]
         self.assertLessEqual({1, 2, -2, -128}, set(seen))
 
+    def test_a_scene_of_another_size_is_refused_where_raw_video_is_written(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        shipped = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scenes", "flat-grass")
+        base, other = (shutil.copytree(shipped, os.path.join(folder.name, name)) for name in ("base", "other"))
+        with open(os.path.join(base, "scene.toml"), "a", encoding="utf-8") as file:
+            file.write('[[database]]\nnumber = 2\nscene = "other"\n[[database]]\nnumber = 3\nscene = "obstacle-field"\n')
+        with open(os.path.join(shipped, "..", "..", "sensors", "hivision.toml"), encoding="utf-8") as file:
+            sensor = file.read().replace("\ncolumns = 164", "\ncolumns = 82")
+        with open(os.path.join(other, "coarse.toml"), "w", encoding="utf-8") as file:
+            file.write(sensor)
+        with open(os.path.join(other, "scene.toml"), "a", encoding="utf-8") as file:
+            file.write('[sensor]\nfile = "coarse.toml"\n')
+        film = os.path.join(folder.name, "film.raw")
+        host = self.start("--rate", "8", "--to", f"raw-bscope:{film}", scene=base)
+
+        def ask(database, until):
+            end = time.monotonic() + 60
+            while time.monotonic() < end:
+                host.send(host.entity(52.0, 10.03, 200.0), database=database)
+                try:
+                    packets = host.receive()
+                except TimeoutError:
+                    continue
+                texts = [packet[4:].rstrip(b"\0").decode() for packet in packets if packet[0] == 117]
+                if until(struct.unpack_from("<b", packets[0], 3)[0], texts):
+                    return texts
+            self.fail(f"database {database} in vain")
+
+        [text] = ask(2, lambda _, texts: texts)
+        self.assertIn("164x524", text)
+        ask(2, lambda database, _: database == -128)
+        ask(3, lambda database, _: database == 3)
+        self.assertEqual(os.path.getsize(film) % (164 * 524), 0)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1], verbosity=2)

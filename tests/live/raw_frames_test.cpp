@@ -262,3 +262,35 @@ TEST_CASE("One file or pipe for two pictures is refused, whatever names it goes 
   CHECK_FALSE(refused(below("pipe"), below("film.raw")));
   CHECK_FALSE(refused("film.raw", "other.raw"));
 }
+
+// The reader went on in the middle of a picture, with another size.
+TEST_CASE("A scene whose pictures are of another size is refused where raw video is written",
+          "[raw_frames]") {
+  const tests::TemporaryFolder folder;
+  const auto scene = tests::live_session(folder)->scene()->description;
+  for (const bool bscope : {true, false}) {
+    INFO(bscope);
+    live::FramesTo to;
+    live::add_sink((bscope ? "raw-bscope:" : "raw-cscope:") + (folder.path() / "film").string(),
+                   to);
+    live::Sinks sinks(to, true);
+    sinks.begin(scene, 16.0);
+    CHECK_NOTHROW(sinks.check_raw_size(scene));
+    scenes::SceneDescription rows = scene, columns = scene;
+    (bscope ? rows.sensor.range.cells : rows.sensor.display.cscope_rows) += 1;
+    columns.sensor.scan.columns -= 1;
+    for (const auto& other : {rows, columns}) {
+      try {
+        sinks.check_raw_size(other);
+        FAIL("taken");
+      } catch (const core::InputError& error) {
+        CHECK(error.problems().at(0).code == "E-UNSUPPORTED");
+        CHECK(error.problems().at(0).expected.find("164x524") != std::string::npos);
+      }
+    }
+    // The other picture is none of theirs.
+    scenes::SceneDescription beside = scene;
+    (bscope ? beside.sensor.display.cscope_rows : beside.sensor.range.cells) += 1;
+    CHECK_NOTHROW(sinks.check_raw_size(beside));
+  }
+}
