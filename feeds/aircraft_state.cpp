@@ -70,6 +70,19 @@ PacketFault fault_in(const AircraftState& state) {
   return possible(state) ? PacketFault::none : PacketFault::range;
 }
 
+int forget_impossible_weather(AircraftState& state) {
+  int forgotten = 0;
+  const auto forget_unless = [&](std::optional<double>& value, bool possible) {
+    if (!value || (possible && std::isfinite(*value))) return;
+    value.reset();
+    ++forgotten;
+  };
+  forget_unless(state.visibility_m, state.visibility_m > 0.0);
+  for (std::optional<double>* const norm : {&state.rain_norm, &state.snow_norm})
+    forget_unless(*norm, *norm >= 0.0 && *norm <= 1.0);
+  return forgotten;
+}
+
 core::Geodetic place_on_earth(double latitude_rad, double longitude_rad, double altitude_m) {
   return {std::clamp(latitude_rad, -core::kPi / 2, core::kPi / 2), longitude_rad, altitude_m};
 }

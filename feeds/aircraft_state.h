@@ -44,6 +44,10 @@ const char* name_of(PacketFault fault);
 // are all exactly 0, as before a simulator has started.
 PacketFault fault_in(const AircraftState& state);
 
+// Takes out of the weather what cannot be, as if it had not been told: a visibility not above 0, rain and snow beyond
+// 0 to 1, what is no finite number. Gives how many there were.
+int forget_impossible_weather(AircraftState& state);
+
 // A latitude, longitude and altitude within those limits.
 bool is_on_earth(double latitude_rad, double longitude_rad, double altitude_m);
 

@@ -53,10 +53,8 @@ std::optional<std::vector<std::pair<std::int32_t, double>>> decode_xplane_values
     return std::nullopt;
   std::vector<std::pair<std::int32_t, double>> values;
   const Fields f(datagram.subspan(kWord_bytes), kSwapLittle);
-  for (std::size_t at = 0; at < datagram.size() - kWord_bytes; at += kPair_bytes) {
-    const auto value = static_cast<double>(f.at<float>(at + 4));
-    if (std::isfinite(value)) values.emplace_back(f.at<std::int32_t>(at), value);
-  }
+  for (std::size_t at = 0; at < datagram.size() - kWord_bytes; at += kPair_bytes)
+    values.emplace_back(f.at<std::int32_t>(at), static_cast<double>(f.at<float>(at + 4)));
   return values;
 }
 

@@ -28,7 +28,7 @@ inline constexpr std::uint16_t kBeaconPort = 49707;
 std::optional<AircraftState> decode_xplane(std::span<const std::uint8_t> datagram,
                                            PacketFault& fault);
 
-// Index and value, finite ones alone. Nothing where it is no RREF, or not of whole pairs.
+// Index and value, which need not be a finite number. Nothing where it is no RREF, or not of whole pairs.
 std::optional<std::vector<std::pair<std::int32_t, double>>> decode_xplane_values(
     std::span<const std::uint8_t> datagram);
 

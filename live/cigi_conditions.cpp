@@ -22,15 +22,11 @@ constexpr std::uint16_t kTilt = 1, kStabilisation = 2, kHeights = 3;
 constexpr std::array<double, 6> kRain_mm_per_h{0.0, 1.0, 3.0, 8.0, 20.0, 50.0};
 constexpr std::array<double, 6> kSnow_mm_per_h{0.0, 0.5, 1.0, 2.0, 4.0, 8.0};
 
-double by_severity(const std::array<double, 6>& rates, std::uint8_t severity) {
-  return rates[std::min<std::size_t>(severity, rates.size() - 1)];
-}
-
 double marshall_palmer_mm_per_h(double water_g_per_m3) {
   return std::pow(water_g_per_m3 / 0.072, 1.0 / 0.88);
 }
 
-double share(double value) { return std::clamp(value, 0.0, 1.0); }
+bool is_share(double value) { return value >= 0.0 && value <= 1.0; }
 
 }  // namespace
 
@@ -106,14 +102,16 @@ bool CigiConditions::take(const cigi::WeatherControl& packet) {
   constexpr std::uint8_t kFog = 0, kRain = 4, kSnow = 5;
   if (packet.scope != 0 || (packet.layer != kFog && packet.layer != kRain && packet.layer != kSnow))
     return false;
-  const double water = packet.enabled ? std::max(packet.aerosol_g_per_m3, 0.0) : 0.0;
+  if (packet.enabled && (packet.severity >= kRain_mm_per_h.size() || packet.aerosol_g_per_m3 < 0.0))
+    return false;
+  const double water = packet.enabled ? packet.aerosol_g_per_m3 : 0.0;
   const std::uint8_t severity = packet.enabled ? packet.severity : std::uint8_t{0};
   if (packet.layer == kRain) {
     const double rate_mm_per_h =
-        water > 0.0 ? marshall_palmer_mm_per_h(water) : by_severity(kRain_mm_per_h, severity);
+        water > 0.0 ? marshall_palmer_mm_per_h(water) : kRain_mm_per_h[severity];
     edits_.emplace_back([=](atmosphere::Weather& now) { now.rain_rate_mm_per_h = rate_mm_per_h; });
   } else if (packet.layer == kSnow) {
-    const double rate_mm_per_h = by_severity(kSnow_mm_per_h, severity);
+    const double rate_mm_per_h = kSnow_mm_per_h[severity];
     edits_.emplace_back([=](atmosphere::Weather& now) { now.snow_rate_mm_per_h = rate_mm_per_h; });
   } else {
     edits_.emplace_back([=](atmosphere::Weather& now) {
@@ -184,14 +182,14 @@ bool CigiConditions::set_levels(double gain, double level) {
 }
 
 bool CigiConditions::take(const cigi::SensorControl& packet) {
+  if (!is_share(packet.gain) || !is_share(packet.level) || !is_share(packet.noise)) return false;
   view_.on = packet.on;
   view_.black_hot = packet.black_hot;
   response_.reset();
   if (packet.on && packet.track_mode != 0)
     response_ = {packet.view, packet.sensor, packet.extended_response};
-  sensor_.noise_figure =
-      own_sensor_.receiver.noise_figure * std::pow(10.0, 2.0 * share(packet.noise));
-  const bool has_levels = set_levels(share(packet.gain), share(packet.level));
+  sensor_.noise_figure = own_sensor_.receiver.noise_figure * std::pow(10.0, 2.0 * packet.noise);
+  const bool has_levels = set_levels(packet.gain, packet.level);
   changes_.sensor = sensor_;
   return has_levels && !packet.line_dropout && !packet.automatic_gain;
 }

@@ -53,7 +53,8 @@ class CigiConditions {
 
   // The scene's own, all of it.
   void reset();
-  // Each gives false for a packet that means nothing here.
+  // Each gives false for a packet that means nothing here, or tells what the protocol has not: severity beyond 5,
+  // water below 0, gain, level and noise beyond 0 to 1. That changes nothing.
   bool take(const feeds::cigi::WeatherControl& packet);
   bool take(const feeds::cigi::AtmosphereControl& packet);
   bool take(const feeds::cigi::SurfaceConditions& packet);

@@ -19,6 +19,19 @@ constexpr double kElsewhere_m = 2000.0;
 // A packet that waits longer for the next one is no news any more.
 constexpr double kTogether_s = 1.0;
 
+using NamedCounts = std::vector<std::pair<std::string, std::uint64_t>>;
+
+// To what other sources were counted for.
+void add_count(NamedCounts& counts, const std::string& reason, std::uint64_t count) {
+  if (count == 0) return;
+  const auto known = std::find_if(counts.begin(), counts.end(),
+                                  [&](const auto& one) { return one.first == reason; });
+  if (known == counts.end())
+    counts.emplace_back(reason, count);
+  else
+    known->second += count;
+}
+
 }  // namespace
 
 Feed::Feed(std::shared_ptr<const scenes::Scene> scene, core::VerticalDatum datum,
@@ -46,7 +59,7 @@ std::optional<Feed::Heard> Feed::heard_in(std::span<const std::uint8_t> datagram
 
 bool Feed::take(std::span<const std::uint8_t> datagram, Clock::time_point arrived) {
   feeds::PacketFault fault{};
-  const auto state = protocol_.decode(datagram, fault);
+  const auto state = without_impossible_weather(protocol_.decode(datagram, fault));
   if (state) fault = fault_in_turn(*state, arrived);
   if (fault == feeds::PacketFault::jump) {
     settle(false);
@@ -88,14 +101,28 @@ void Feed::put(const Taken& one) {
   compare_heights(pose, one.state.height_above_ground_m, one.arrived);
 }
 
-void Feed::tell_visibility(double visibility_m) {
+std::optional<feeds::AircraftState> Feed::without_impossible_weather(
+    std::optional<feeds::AircraftState> state) {
+  const int forgotten = state ? feeds::forget_impossible_weather(*state) : 0;
   const std::lock_guard<std::mutex> lock(mutex_);
-  visibility_m_ = visibility_m;
+  impossible_weather_ += static_cast<std::uint64_t>(forgotten);
+  return state;
+}
+
+void Feed::tell_visibility(double visibility_m) {
+  feeds::AircraftState told;
+  told.visibility_m = visibility_m;
+  const auto possible = without_impossible_weather(told);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (possible->visibility_m) visibility_m_ = visibility_m;
 }
 
 void Feed::tell_rain(double norm) {
+  feeds::AircraftState told;
+  told.rain_norm = norm;
+  const auto possible = without_impossible_weather(told);
   const std::lock_guard<std::mutex> lock(mutex_);
-  rain_norm_ = norm;
+  if (possible->rain_norm) rain_norm_ = norm;
 }
 
 void Feed::turn_away() { count(feeds::PacketFault::foreign); }
@@ -138,16 +165,9 @@ std::optional<feeds::AircraftState> Feed::newest() const {
 void Feed::tell(Status& status) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   status.packets += packets_;
-  for (std::size_t i = 1; i < bad_.size(); ++i) {
-    if (bad_[i] == 0) continue;
-    const std::string reason = feeds::name_of(static_cast<feeds::PacketFault>(i));
-    const auto known = std::find_if(status.bad_packets.begin(), status.bad_packets.end(),
-                                    [&](const auto& bad) { return bad.first == reason; });
-    if (known == status.bad_packets.end())
-      status.bad_packets.emplace_back(reason, bad_[i]);
-    else
-      known->second += bad_[i];
-  }
+  for (std::size_t i = 1; i < bad_.size(); ++i)
+    add_count(status.bad_packets, feeds::name_of(static_cast<feeds::PacketFault>(i)), bad_[i]);
+  add_count(status.unused_packets, "weather that cannot be", impossible_weather_);
 }
 
 std::optional<double> Feed::height_offset_m() const {

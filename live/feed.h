@@ -47,7 +47,7 @@ class Feed {
   bool take(std::span<const std::uint8_t> datagram, Clock::time_point arrived = Clock::now());
   // One that nobody asked for: counted.
   void turn_away();
-  // Of a simulator that tells its weather apart from its packets.
+  // Of a simulator that tells its weather apart from its packets. What cannot be is counted and not told.
   void tell_visibility(double visibility_m);
   void tell_rain(double norm);
   struct Heard {
@@ -59,7 +59,7 @@ class Feed {
   const Mailbox& mailbox() const { return *mailbox_; }
   // What the newest good packet says, weather and all; nothing before the first.
   std::optional<feeds::AircraftState> newest() const;
-  // Adds packets, and bad ones by reason.
+  // Adds packets, bad ones by reason, and weather that cannot be.
   void tell(Status& status) const;
   // The median of the last five seconds over the scene's ground; nothing before there were as many.
   std::optional<double> height_offset_m() const;
@@ -76,6 +76,9 @@ class Feed {
   void settle(bool counts);
   void put(const Taken& one);
   void count(feeds::PacketFault fault);
+  // What of it is told and can be.
+  std::optional<feeds::AircraftState> without_impossible_weather(
+      std::optional<feeds::AircraftState> state);
   void compare_heights(const core::Pose& pose, double told_m, Clock::time_point arrived);
 
   std::shared_ptr<const scenes::Scene> scene_;
@@ -89,7 +92,7 @@ class Feed {
   mutable std::mutex mutex_;
   std::optional<feeds::AircraftState> newest_;
   std::optional<double> visibility_m_, rain_norm_;  // told apart
-  std::uint64_t packets_ = 0;
+  std::uint64_t packets_ = 0, impossible_weather_ = 0;
   std::array<std::uint64_t, feeds::kPacketFaults> bad_{};
   struct Compared {
     Clock::time_point arrived;

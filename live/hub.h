@@ -75,7 +75,7 @@ struct Status {
   std::uint64_t packets = 0;
   std::vector<std::pair<std::string, std::uint64_t>> bad_packets;
   std::uint64_t stray_poses = 0;  // of packets that were good by themselves (predictor.h)
-  // Parts of good packets that mean nothing here, by name (live/cigi_ig.h).
+  // Parts of good packets that mean nothing here, by name (live/cigi_ig.h), or cannot be.
   std::vector<std::pair<std::string, std::uint64_t>> unused_packets;
   std::optional<double> height_offset_m;
 };

@@ -4,7 +4,7 @@
 // These become rates by a power law through the classes of WMO-No. 8 (2018), part I, chapter 14
 // (rain: light below 2.5 mm/h, moderate to 10, heavy to 50; snow, as water: below 1, to 5, more):
 //   rain 22 n^2.7 mm/h (light 1.1, moderate 7.4, heavy 22), snow 7 n^2.2 mm/h (0.6, 2.9, 7)
-// n beyond 0 to 1 counts as its end. So a rate is good to its class, a factor of two or more.
+// What cannot be (n beyond 0 to 1, say) is not told: feeds/aircraft_state.h. So a rate is good to its class, a factor of two or more.
 // Fog is there below 1000 m of visibility (WMO's definition), with the water that the scene's fog
 // model gives it; haze and what rain takes of the view is none. Where both fall, what falls more
 // counts: dry snow has no rain beside it, unless the scene has a melting layer between them (atmosphere/weather.h).

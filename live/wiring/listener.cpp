@@ -69,6 +69,7 @@ void Listener::hear(Source& source, std::span<const std::uint8_t> datagram, cons
 void Listener::tell(Status& status) const {
   status.packets = 0;
   status.bad_packets.clear();
+  status.unused_packets.clear();
   if (ig_)
     ig_->tell(status);
   else

@@ -59,14 +59,14 @@ TEST_CASE("What is no position is refused with its reason", "[xplane]") {
         PacketFault::nonfinite);
 }
 
-TEST_CASE("Values are pairs of index and number; those that are not finite are left out",
-          "[xplane]") {
+TEST_CASE("Values are pairs of index and number, finite or not", "[xplane]") {
   const float infinite = std::numeric_limits<float>::infinity();
   const auto values =
       feeds::decode_xplane_values(tests::xplane_values({{0, 800.0F}, {1, infinite}, {1, 0.5F}}));
-  REQUIRE((values && values->size() == 2));
+  REQUIRE((values && values->size() == 3));
   CHECK((*values)[0] == std::pair(std::int32_t{0}, 800.0));
-  CHECK((*values)[1] == std::pair(std::int32_t{1}, 0.5));
+  CHECK((*values)[1] == std::pair(std::int32_t{1}, static_cast<double>(infinite)));
+  CHECK((*values)[2] == std::pair(std::int32_t{1}, 0.5));
   auto cut = tests::xplane_values({{0, 800.0F}});
   cut.pop_back();
   CHECK_FALSE(feeds::decode_xplane_values(cut).has_value());

@@ -153,8 +153,8 @@ TEST_CASE("Gain, level and noise of a host set the display's levels and the nois
   CHECK(now.display.high_dB == Approx(own.display.high_dB));
   CHECK(now.receiver.noise_figure == own.receiver.noise_figure);
   // Full gain halves the span about its middle, full level moves it down by half of the own span, and
-  // noise is 20 dB more; beyond 1 is as 1.
-  now = sensor_after(sensor_control(1, 1.0F, 1.0F, 7.0F), 2);
+  // noise is 20 dB more.
+  now = sensor_after(sensor_control(1, 1.0F, 1.0F, 1.0F), 2);
   CHECK(now.display.high_dB - now.display.low_dB == Approx(span_dB / 2));
   CHECK(now.display.high_dB + now.display.low_dB ==
         Approx(own.display.high_dB + own.display.low_dB - span_dB));
@@ -166,6 +166,36 @@ TEST_CASE("Gain, level and noise of a host set the display's levels and the nois
   // What is asked for and not there is counted: automatic gain, dropped lines.
   station.hear(message(4, {sensor_control(1 | 8, 0.5F, 0.5F, 0.0F)}));
   CHECK(all_of(station.told().unused_packets) == 1);
+}
+
+// It counted as the end of its range, without a word.
+TEST_CASE(
+    "What a host tells of sensor and weather beyond the protocol's range is counted and left out",
+    "[cigi]") {
+  Station station;
+  const auto before = station.session->scene();
+  std::uint32_t frame = 0;
+  const auto counted_after = [&](const Bytes& packet) {
+    station.hear(message(++frame, {packet}));
+    station.ig.begin_frame();
+    return all_of(station.told().unused_packets);
+  };
+  std::uint64_t counted = 0;
+  for (const Bytes& packet :
+       {sensor_control(1, 1.01F, 0.5F, 0.0F), sensor_control(0, -0.01F, 0.5F, 0.0F),
+        sensor_control(1, 0.5F, 2.0F, 0.0F), sensor_control(1, 0.5F, 0.5F, 7.0F),
+        tests::weather(4, 9000.0F, 0.0F, 6), tests::weather(5, 9000.0F, 0.0F, 7),
+        tests::weather(0, 300.0F, -0.1F)})
+    CHECK(counted_after(packet) == ++counted);
+  const auto now = station.session->scene();
+  CHECK(now->weather.rain_rate_mm_per_h == before->weather.rain_rate_mm_per_h);
+  CHECK(now->weather.snow_rate_mm_per_h == before->weather.snow_rate_mm_per_h);
+  CHECK(now->weather.visibility_m == before->weather.visibility_m);
+  CHECK(now->description.sensor.display.low_dB == before->description.sensor.display.low_dB);
+  CHECK(now->description.sensor.receiver.noise_figure ==
+        before->description.sensor.receiver.noise_figure);
+  CHECK(counted_after(tests::weather(4, 9000.0F, 0.0F, 5)) == counted);
+  CHECK(station.session->scene()->weather.rain_rate_mm_per_h == 50.0);
 }
 
 // A display without levels to set, and a receiver that can have no more noise: what was refused was refused

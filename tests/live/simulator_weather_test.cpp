@@ -112,6 +112,35 @@ TEST_CASE("What the simulator changes is set, and what a person sets stands unti
   CHECK_FALSE(session->scene()->weather.visibility_m.has_value());
 }
 
+// It was clamped: of -1 m of visibility the densest fog, of 7 of rain a cloudburst, and nobody was told.
+TEST_CASE("Weather of a simulator that cannot be is not told, and counted; its pose stays",
+          "[simulator_weather]") {
+  tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  live::Hub hub;
+  const live::Desk desk(*session, hub);
+  live::Feed feed(session->scene(), core::VerticalDatum::scene, feeds::kProtocols[1]);
+  live::SimulatorWeather weather(desk, feed);
+  const auto begin = live::Clock::now();
+  send(feed, 1, "400,0.5,0");
+  weather.follow(begin);
+  const double rain_rate_mm_per_h = session->scene()->weather.rain_rate_mm_per_h;
+  CHECK(rain_rate_mm_per_h > 0.0);
+  send(feed, 2, "0,7,-0.1");
+  send(feed, 3, "-1,1.0001,2");
+  weather.follow(begin + std::chrono::seconds(3));
+  CHECK(session->scene()->weather.rain_rate_mm_per_h == rain_rate_mm_per_h);
+  CHECK(session->scene()->weather.visibility_m == 400.0);
+  CHECK(feed.mailbox().count() == 3);
+  live::Status told;
+  feed.tell(told);
+  CHECK(told.bad_packets.empty());
+  using Counts = std::vector<std::pair<std::string, std::uint64_t>>;
+  CHECK(told.unused_packets == Counts{{"weather that cannot be", 6}});
+  feed.tell(told);  // of a second source
+  CHECK(told.unused_packets == Counts{{"weather that cannot be", 12}});
+}
+
 // Each change of the visibility took the rain away.
 TEST_CASE("What a protocol does not tell stays as it was set", "[simulator_weather]") {
   tests::TemporaryFolder folder;

@@ -2,6 +2,7 @@
 #include "live/xplane_link.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "live/simulator_weather.h"
 #include "tests/feeds/xplane_bytes.h"
@@ -76,6 +77,19 @@ TEST_CASE("Weather that comes apart from positions reaches the radar's controls"
   CHECK(talk.feed.newest()->visibility_m == 700.0);
   CHECK(talk.feed.newest()->rain_norm == 0.5);
   CHECK(talk.status().packets == 2);
+}
+
+TEST_CASE("Weather of X-Plane that cannot be is counted, and what it told before stays",
+          "[xplane_link]") {
+  Talk talk(kSimulator);
+  talk.link.take(tests::xplane_position(52.3, 10.5, 300.0), kFromThere);
+  talk.link.take(tests::xplane_values({{0, 700.0F}, {1, 0.5F}}), kFromThere);
+  talk.link.take(tests::xplane_values({{0, std::nanf("")}, {0, 0.0F}, {1, -0.5F}, {1, 1.5F}}),
+                 kFromThere);
+  CHECK(talk.feed.newest()->visibility_m == 700.0);
+  CHECK(talk.feed.newest()->rain_norm == 0.5);
+  REQUIRE(talk.status().unused_packets.size() == 1);
+  CHECK(talk.status().unused_packets[0].second == 4);
 }
 
 TEST_CASE("F12 packets of others than the simulator are counted and left alone", "[xplane_link]") {
