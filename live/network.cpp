@@ -169,9 +169,8 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
   std::optional<http::response<http::string_body>> response_;
 };
 
-// As an IPv4 address where it is one that came in over IPv6.
-std::string sender(const udp::endpoint& from) {
-  const asio::ip::address address = from.address();
+// As an IPv4 address where it is one that came in over IPv6, or is written so.
+std::string plain_address(const asio::ip::address& address) {
   if (!address.is_v6() || !address.to_v6().is_v4_mapped()) return address.to_string();
   return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6()).to_string();
 }
@@ -200,7 +199,7 @@ std::string parse_address(const std::string& text, const std::string& field) {
   if (error)
     core::throw_input_error(core::ErrorClass::parse, field, "\"" + text + "\"",
                             "an address in numbers, such as 127.0.0.1");
-  return address.to_string();
+  return plain_address(address);
 }
 
 Endpoint parse_endpoint(const std::string& text, const std::string& field) {
@@ -285,7 +284,7 @@ struct Network::Inside {
         [this, &receiver](error_code error, std::size_t size) {
           if (error == asio::error::operation_aborted) return;
           if (!error) {
-            const std::string from = sender(receiver.from);
+            const std::string from = plain_address(receiver.from.address());
             try {
               receiver.datagram({receiver.bytes.data(), size},
                                 {from, receiver.from.port(), receiver.peers.admits(from)});

@@ -81,6 +81,9 @@ TEST_CASE("Addresses are this machine's, ports are ports", "[network]") {
   CHECK(live::parse_endpoint("8416", "--http").port == 8416);
   CHECK(live::parse_endpoint("localhost:0", "--http").address == "127.0.0.1");
   CHECK(live::parse_endpoint("[::1]:80", "--http").address == "::1");
+  // One of IPv4 written as of IPv6: a peer of that name never matched.
+  CHECK(live::Peers{{live::parse_address("::ffff:127.0.0.1", "--from")}}.admits("127.0.0.1"));
+  CHECK_FALSE(live::parse_endpoint("[::ffff:127.0.0.1]:80", "--http").beyond_loopback);
   for (const char* text :
        {"", "http", "127.0.0.1:", "1.2.3.4:99999", "65536", "-1", "8416x", "example.org:80"})
     CHECK_THROWS_AS(live::parse_endpoint(text, "--http"), core::InputError);
