@@ -37,15 +37,6 @@ void check_own(const std::string& name, int file) {
          "none, or one of this user's that nobody else may open");
 }
 
-void check_name(const std::string& name) {
-  constexpr const char* kPlain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-";
-  if (name.empty() || name.size() > 64 || name[0] == '.' ||
-      name.find_first_not_of(kPlain) != std::string::npos)
-    core::throw_input_error(core::ErrorClass::parse, "--to shm", "\"" + name + "\"",
-                            "a name of letters, digits, '.', '-' and '_'");
-}
-
 // Another one may have removed the name between opening and locking, or taken it since.
 bool has_name(const std::string& name, int file) {
   const int other = shm_open(("/" + name).c_str(), O_RDONLY | O_CLOEXEC, 0);
@@ -131,9 +122,18 @@ void write_header(std::uint8_t* memory, const sensors::Sensor& sensor, double ra
 
 }  // namespace
 
+void check_shared_name(const std::string& name) {
+  constexpr const char* kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-";
+  if (name.empty() || name.size() > 64 || name[0] == '.' ||
+      name.find_first_not_of(kPlain) != std::string::npos)
+    core::throw_input_error(core::ErrorClass::parse, "--to shm", "\"" + name + "\"",
+                            "a name of letters, digits, '.', '-' and '_'");
+}
+
 SharedFrames::SharedFrames(const std::string& name, const sensors::Sensor& sensor, double rate_Hz)
     : name_(name) {
-  check_name(name);
+  check_shared_name(name);
   const std::size_t bytes = Layout::kPictures + pixels(sensor, sensor.range.cells) +
                             pixels(sensor, sensor.display.cscope_rows);
   slot_bytes_ = (bytes + 63) / 64 * 64;

@@ -37,10 +37,12 @@ struct SharedLayout {
   static_assert(kUnitsAt + sizeof kUnits <= kHeader_bytes);
 };
 
+// Letters, digits, dots, hyphens and underscores, no dot first, at most 64. Throws InputError E-PARSE for another one.
+void check_shared_name(const std::string& name);
+
 class SharedFrames {
  public:
-  // `name`: letters, digits, dots, hyphens and underscores, no dot first, at most 64. Throws
-  // InputError: E-PARSE for another name, E-IO when the system refuses, another process holds it, or a file
+  // Throws InputError: E-PARSE as check_shared_name, E-IO when the system refuses, another process holds it, or a file
   // of that name is another user's or one that others may open. What a process left that has ended is
   // taken over.
   SharedFrames(const std::string& name, const sensors::Sensor& sensor, double rate_Hz);

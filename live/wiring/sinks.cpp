@@ -134,9 +134,10 @@ bool FramesTo::want_received() const {
 }
 
 void add_sink(const std::string& text, FramesTo& to) {
-  if (text.starts_with(kShared))
+  if (text.starts_with(kShared)) {
     to.shared.push_back(text.substr(kShared.size()));
-  else if (text.starts_with(kRawBscope))
+    check_shared_name(to.shared.back());
+  } else if (text.starts_with(kRawBscope))
     add_raw(text, {RawFrames::Scope::bscope, text.substr(kRawBscope.size())}, to);
   else if (text.starts_with(kRawCscope))
     add_raw(text, {RawFrames::Scope::cscope, text.substr(kRawCscope.size())}, to);
@@ -149,15 +150,27 @@ void add_sink(const std::string& text, FramesTo& to) {
 void Sinks::begin(const scenes::SceneDescription& scene, double rate_Hz) {
   shared_.clear();
   video_.clear();
+  core::ProblemList problems;
+  const auto open = [&](auto& sinks, const auto& made) {
+    try {
+      sinks.push_back(made());
+    } catch (const core::InputError& error) {
+      problems.append(error.problems());
+    }
+  };
   for (const std::string& name : to_.shared)
-    shared_.push_back(std::make_unique<SharedFrames>(name, scene.sensor, rate_Hz));
+    open(shared_, [&] { return std::make_unique<SharedFrames>(name, scene.sensor, rate_Hz); });
   for (const RadarVideoSettings& video : to_.video)
-    video_.push_back(
-        std::make_unique<RadarVideo>(video, scene.sensor, scene.name, rate_Hz, every_frame_));
+    open(video_, [&] {
+      return std::make_unique<RadarVideo>(video, scene.sensor, scene.name, rate_Hz, every_frame_);
+    });
+  const bool raw_begins = raw_.size() < to_.raw.size();
+  if (raw_begins)
+    for (const RawSink& sink : to_.raw)
+      open(raw_, [&] { return std::make_unique<RawFrames>(sink.scope, sink.file, every_frame_); });
+  problems.throw_if_errors();
+  if (!raw_begins) return;
   // Last, as it empties files that are there, and all of them or none.
-  if (raw_.size() == to_.raw.size()) return;
-  for (const RawSink& sink : to_.raw)
-    raw_.push_back(std::make_unique<RawFrames>(sink.scope, sink.file, every_frame_));
   for (const auto& raw : raw_) raw->begin();
   raw_sensor_ = scene.sensor;
 }

@@ -35,6 +35,7 @@ class Sinks {
  public:
   Sinks(const FramesTo& to, bool every_frame) : to_(to), every_frame_(every_frame) {}
   // Frames are that scene's from now on. Files and pipes are opened the first time and stay open.
+  // Throws InputError with all that cannot be opened.
   void begin(const scenes::SceneDescription& scene, double rate_Hz);
   // Behind begin(). Raw video has no word for another size of its pictures: throws InputError (E-UNSUPPORTED) where
   // that scene's are of another one.

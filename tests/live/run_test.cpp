@@ -219,6 +219,38 @@ TEST_CASE("A run ends with an error when the system refuses its recording as it 
   CHECK(live::read_recording(file).events.size() == 2);
 }
 
+// One was told, and the other when that was put right.
+TEST_CASE("All sinks that cannot be are told at once, by their words and at their opening",
+          "[live]") {
+  const auto wrong_words = [](const std::vector<std::string>& sinks) {
+    std::vector<std::string> values;
+    try {
+      live::wiring_of({.to = sinks}, nullptr);
+    } catch (const core::InputError& error) {
+      for (const core::Problem& problem : error.problems()) values.push_back(problem.value);
+    }
+    return values;
+  };
+  CHECK(wrong_words({"shm:../x", "bad", "shm:", "shm:fine"}) ==
+        std::vector<std::string>{"\"../x\"", "\"bad\"", "\"\""});
+  const tests::TemporaryFolder folder;
+  const auto kept = folder.write("kept.raw", "kept");
+  live::FramesTo to;
+  for (const std::string& sink :
+       {std::string("raw-bscope:/nonexistent/a"), "raw-bscope:" + kept.string(),
+        std::string("raw-cscope:/nonexistent/b")})
+    live::add_sink(sink, to);
+  live::Sinks sinks(to, true);
+  std::vector<std::string> files;
+  try {
+    sinks.begin(tests::live_session(folder)->scene()->description, 16.0);
+  } catch (const core::InputError& error) {
+    for (const core::Problem& problem : error.problems()) files.push_back(problem.place.file);
+  }
+  CHECK(files == std::vector<std::string>{"/nonexistent/a", "/nonexistent/b"});
+  CHECK(std::filesystem::file_size(kept) == 4);
+}
+
 // What was posted changed the replay.
 TEST_CASE("The page of a run that flies a recording changes nothing of it", "[live]") {
   const tests::TemporaryFolder folder;
