@@ -128,6 +128,11 @@ bool FramesTo::take_stdout() const {
   return std::any_of(raw.begin(), raw.end(), [](const RawSink& sink) { return sink.file == "-"; });
 }
 
+bool FramesTo::write_into(const std::string& file) const {
+  return std::any_of(raw.begin(), raw.end(),
+                     [&](const RawSink& sink) { return is_same_file(sink.file, file); });
+}
+
 bool FramesTo::want_received() const {
   return std::any_of(video.begin(), video.end(),
                      [](const auto& one) { return one.bits == CellBits::sixteen; });

@@ -22,6 +22,8 @@ struct FramesTo {
   std::vector<RadarVideoSettings> video;
 
   bool take_stdout() const;
+  // Raw pictures go there, whatever name it goes by; "-" is the standard output.
+  bool write_into(const std::string& file) const;
   bool want_received() const;  // LiveFrame::received_W
 };
 

@@ -47,6 +47,15 @@ void check_record(const RunSettings& settings, const Wiring& wiring) {
                             "another source: a CIGI host is not recorded");
 }
 
+// Of lines among pictures neither could be read.
+void check_record_apart(const RunSettings& settings, const Wiring& wiring) {
+  // To --record "-" is a file of that name.
+  const std::string file = settings.record == "-" ? "./-" : settings.record;
+  if (!file.empty() && wiring.to.write_into(file))
+    core::throw_input_error(core::ErrorClass::ref, "--record", "\"" + settings.record + "\"",
+                            "another file than --to writes");
+}
+
 void check_page(const std::string& text, const Wiring& wiring) {
   if (wiring.page.beyond_loopback && !wiring.access.has_token())
     core::throw_input_error(core::ErrorClass::unsupported, "--http", "\"" + text + "\"",
@@ -73,6 +82,7 @@ Wiring wiring_of(const RunSettings& settings, const char* token) {
   for (const std::string& sink : settings.to) collect([&] { add_sink(sink, wiring.to); });
   collect([&] { check_page(settings.http, wiring); });
   if (!wiring.from.empty()) collect([&] { check_record(settings, wiring); });
+  collect([&] { check_record_apart(settings, wiring); });
   if (settings.replay.empty()) {
     collect([&] { check_one_source(settings, wiring); });
     collect([&] { check_weather(settings, wiring); });

@@ -1,6 +1,7 @@
 // A flight by the words of a command line, without the command.
 #include "live/wiring/run.h"
 
+#include <fcntl.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <sys/time.h>
@@ -249,6 +250,38 @@ TEST_CASE("All sinks that cannot be are told at once, by their words and at thei
   }
   CHECK(files == std::vector<std::string>{"/nonexistent/a", "/nonexistent/b"});
   CHECK(std::filesystem::file_size(kept) == 4);
+}
+
+// Standard output is a file of another name there: each overwrote the other.
+TEST_CASE("A recording into the file of raw pictures is refused, whatever names it goes by",
+          "[live]") {
+  const tests::TemporaryFolder folder;
+  const auto film = folder.write("film.raw", "");
+  const auto linked = folder.path() / "linked.raw";
+  std::filesystem::create_hard_link(film, linked);
+  const auto is_refused = [](const std::string& sink, const std::string& record) {
+    try {
+      live::wiring_of({.to = {"raw-bscope:" + sink}, .record = record}, nullptr);
+    } catch (const core::InputError& error) {
+      return error.problems().size() == 1 && error.problems()[0].field == "--record";
+    }
+    return false;
+  };
+  const int before = ::dup(STDOUT_FILENO);
+  const int file = ::open(film.c_str(), O_WRONLY);
+  REQUIRE((before >= 0 && file >= 0));
+  ::dup2(file, STDOUT_FILENO);
+  const bool by_descriptor = is_refused("-", "/dev/stdout"), by_name = is_refused("-", film);
+  ::dup2(before, STDOUT_FILENO);
+  ::close(before);
+  ::close(file);
+  CHECK(by_descriptor);
+  CHECK(by_name);
+  CHECK(is_refused(film, linked));
+  CHECK(is_refused("none.raw", "./none.raw"));  // not there yet
+  CHECK_FALSE(is_refused(film, folder.path() / "flight.jsonl"));
+  CHECK_FALSE(is_refused("-", "-"));
+  CHECK_FALSE(is_refused(film, ""));
 }
 
 // What was posted changed the replay.
