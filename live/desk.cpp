@@ -1,10 +1,13 @@
 #include "live/desk.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/errors.h"
 #include "core/json_node.h"
@@ -19,7 +22,12 @@ namespace fanbeam::live {
 namespace {
 
 constexpr core::JsonLimits kLimits{8, 100};
-constexpr const char *kWeather = "/api/weather", *kSensor = "/api/sensor", *kCell = "/api/cell";
+constexpr const char *kWeather = "/api/weather", *kSensor = "/api/sensor", *kCell = "/api/cell",
+                     *kBscope = "/frame/bscope.png";
+// That answer a GET; streams and the WebSocket apart.
+constexpr std::array<std::string_view, 11> kPaths{
+    "/",     "/metrics", "/api/openapi.json", "/api/status", "/api/map", "/api/plan", kWeather,
+    kSensor, kCell,      "/frame/cscope.png", kBscope};
 
 Answer json_answer(const Json& value, int status = 200) {
   return {status, "application/json", value.dump(-1, ' ', true, Json::error_handler_t::replace)};
@@ -35,20 +43,54 @@ Answer problems_answer(const std::vector<core::Problem>& problems) {
   return json_answer({{"problems", list}}, 422);
 }
 
-// The value of `name` in "?a=1&b=2"; empty where there is none. Nothing is escaped in what is asked.
-std::string word_in(const std::string& query, const std::string& name) {
-  for (std::size_t at = 0; at < query.size();) {
+// Keys and values of "?a=1&b=2". Nothing is escaped in what is asked.
+std::vector<std::pair<std::string, std::string>> words_in(const std::string& query) {
+  std::vector<std::pair<std::string, std::string>> words;
+  for (std::size_t at = 0; at + 1 < query.size();) {
     const std::size_t end = std::min(query.find('&', at + 1), query.size());
-    if (query.compare(at + 1, name.size() + 1, name + "=") == 0)
-      return query.substr(at + name.size() + 2, end - at - name.size() - 2);
+    const std::string word = query.substr(at + 1, end - at - 1);
+    const std::size_t sign = std::min(word.find('='), word.size());
+    words.emplace_back(word.substr(0, sign), word.substr(std::min(sign + 1, word.size())));
     at = end;
   }
-  return {};
+  return words;
+}
+
+std::optional<std::string> word_in(const std::string& query, const std::string& name) {
+  for (const auto& [key, value] : words_in(query))
+    if (key == name) return value;
+  return std::nullopt;
+}
+
+// "n" means nothing: with another one each time a browser asks anew.
+std::vector<std::string> query_keys(const std::string& path) {
+  if (path == kCell) return {"scope", "frame", "column", "row", "n"};
+  if (path.starts_with("/frame/")) return {"gain_dB", "n"};
+  if (path == "/") return {"token", "n"};
+  return {"n"};
+}
+
+void check_query(const std::string& query, const std::vector<std::string>& known,
+                 core::ProblemList& problems) {
+  std::string names;
+  for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
+  std::vector<std::string> met;
+  const auto is_in = [](const std::vector<std::string>& all, const std::string& key) {
+    return std::find(all.begin(), all.end(), key) != all.end();
+  };
+  for (const auto& [key, value] : words_in(query)) {
+    if (!is_in(known, key))
+      problems.error(core::ErrorClass::parse, {}, key, "unknown",
+                     known.empty() ? "no query" : names);
+    else if (is_in(met, key))
+      problems.error(core::ErrorClass::parse, {}, key, "given twice", "each key once");
+    met.push_back(key);
+  }
 }
 
 std::optional<int> whole_in(const std::string& query, const std::string& name,
                             core::ProblemList& problems) {
-  const std::string word = word_in(query, name);
+  const std::string word = word_in(query, name).value_or("");
   int value = 0;
   const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (!word.empty() && fault == std::errc() && end == word.data() + word.size() && value >= 0)
@@ -164,6 +206,14 @@ Answer refusal(int status, const std::string& why) { return json_answer({{"error
 
 bool Desk::renders(const Request& request) { return request.path() == kCell; }
 
+std::optional<Answer> Desk::refuse_query(const Request& request) {
+  core::ProblemList problems;
+  const std::string path = request.path();
+  check_query(request.target.substr(path.size()), query_keys(path), problems);
+  if (!problems.has_errors()) return std::nullopt;
+  return problems_answer(problems.all());
+}
+
 Answer Desk::answer(const Request& request) const {
   if (const std::optional<Answer> refused = access_.refuse(request)) return *refused;
   const std::string path = request.path();
@@ -179,6 +229,9 @@ Answer Desk::answer(const Request& request) const {
     if (asks) return get(path, request.target.substr(path.size()));
     if (!is_control(path)) return refusal(404, "no such control");
     if (replays_) return refusal(409, "a recording is flown");
+    core::ProblemList problems;
+    check_query(request.target.substr(path.size()), {}, problems);
+    problems.throw_if_errors();
     control(path, request.body);
     return get(path, {});
   } catch (const core::InputError& error) {
@@ -188,9 +241,8 @@ Answer Desk::answer(const Request& request) const {
   }
 }
 
-Answer Desk::cell(const std::string& query) const {
-  core::ProblemList problems;
-  const std::string name = word_in(query, "scope");
+Answer Desk::cell(const std::string& query, core::ProblemList& problems) const {
+  const std::string name = word_in(query, "scope").value_or("");
   std::optional<Scope> scope;
   if (name == "bscope" || name == "cscope")
     scope = name == "bscope" ? Scope::bscope : Scope::cscope;
@@ -210,7 +262,13 @@ Answer Desk::cell(const std::string& query) const {
 }
 
 Answer Desk::get(const std::string& path, const std::string& query) const {
-  if (path == kCell) return cell(query);
+  if (std::find(kPaths.begin(), kPaths.end(), path) == kPaths.end())
+    return refusal(404, "no such page");
+  core::ProblemList problems;
+  check_query(query, query_keys(path), problems);
+  if (path == kCell) return cell(query, problems);
+  if (path.starts_with("/frame/")) return picture(path == kBscope, query, problems);
+  problems.throw_if_errors();
   if (path == "/") return {200, "text/html; charset=utf-8", page()};
   if (path == "/api/openapi.json") return {200, "application/json", openapi()};
   if (path == "/api/status") return json_answer(status_json(hub_.status()));
@@ -220,16 +278,12 @@ Answer Desk::get(const std::string& path, const std::string& query) const {
   if (path == "/api/map") return json_answer(map_json(*scene));
   if (path == "/api/plan") return json_answer(plan_json(*scene));
   if (path == kSensor) return json_answer(sensor_json(scene->description.sensor));
-  if (path == kWeather) return json_answer(weather_json(scene->weather));
-  return picture(path, query);
+  return json_answer(weather_json(scene->weather));
 }
 
-Answer Desk::picture(const std::string& path, const std::string& query) const {
-  const bool bscope = path == "/frame/bscope.png";
-  if (!bscope && path != "/frame/cscope.png") return refusal(404, "no such page");
-  core::ProblemList problems;
-  const std::string gain = word_in(query, "gain_dB");
-  const double gain_dB = gain.empty() ? 0.0 : gain_in(gain, problems);
+Answer Desk::picture(bool bscope, const std::string& query, core::ProblemList& problems) const {
+  const std::optional<std::string> gain = word_in(query, "gain_dB");
+  const double gain_dB = gain ? gain_in(*gain, problems) : 0.0;
   problems.throw_if_errors();
   const std::shared_ptr<const LiveFrame> frame = hub_.newest();
   if (!frame) return refusal(503, "no frame yet");

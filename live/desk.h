@@ -21,12 +21,16 @@
 //   GET  /api/map            the runways, for a plan view
 //   GET  /api/openapi.json   all of this, for programs
 //
+// A key of a query that the path has not, or one given twice, is answered 422 too. "n" is any path's, and means
+// nothing: with another one each time a browser asks anew.
+//
 // Who may ask is told by access.h. A POST says that its body is JSON (else 415), which no form of
 // another page can.
 #pragma once
 
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -55,6 +59,8 @@ class Desk {
   const Access& access() const { return access_; }
   // Whether its answer may take as long as a frame does.
   static bool renders(const Request& request);
+  // Of a stream or a WebSocket, which answer() does not answer: 422 for keys that the path has not, or one given twice.
+  static std::optional<Answer> refuse_query(const Request& request);
   // Thread-safe. Never throws for what stands in the request.
   Answer answer(const Request& request) const;
   // What a POST with that body does, and a control of a recording. Throws InputError with all that is wrong, and changes nothing then.
@@ -65,8 +71,9 @@ class Desk {
 
  private:
   Answer get(const std::string& path, const std::string& query) const;
-  Answer cell(const std::string& query) const;
-  Answer picture(const std::string& path, const std::string& query) const;
+  // With what is wrong with the keys of the query.
+  Answer cell(const std::string& query, core::ProblemList& problems) const;
+  Answer picture(bool bscope, const std::string& query, core::ProblemList& problems) const;
   void obey(const std::string& path, const std::string& body) const;
 
   session::Session& session_;

@@ -107,6 +107,7 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
     const bool by_stream = asked.method == "GET" && is_stream(path);
     if (by_socket || by_stream) {
       if (refused) return answer(request, *refused);
+      if (const auto wrong = Desk::refuse_query(asked)) return answer(request, *wrong);
       stream_.expires_never();
       if (by_socket) return watch_by_socket(stream_.release_socket(), request, room_);
       return watch_by_stream(stream_.release_socket(), path, room_);

@@ -398,6 +398,43 @@ TEST_CASE("A cell that is none is refused with all that is wrong", "[desk]") {
   CHECK(json::parse(beyond.body)["problems"].size() == 2);
 }
 
+// They were passed over: a picture without the gain that was asked for looked like one with it.
+TEST_CASE("Keys of a query that a path has not, or given twice, are told with those it has",
+          "[desk]") {
+  Office office;
+  auto frame = std::make_shared<live::LiveFrame>();
+  frame->number = 1;
+  frame->bscope = {1, 1, {7}};
+  frame->high_dB = 10.0;
+  office.hub.publish(frame);
+  const auto status = [&](const std::string& target) {
+    return office.desk.answer(get(target)).status;
+  };
+  const auto problems = [&](const live::Request& request) {
+    const live::Answer answer = office.desk.answer(request);
+    CHECK(answer.status == 422);
+    return json::parse(answer.body)["problems"];
+  };
+  const std::string picture = "/frame/bscope.png";
+  const json misspelt = problems(get(picture + "?gian_dB=6"));
+  REQUIRE(misspelt.size() == 1);
+  CHECK(misspelt[0]["field"] == "gian_dB");
+  CHECK(misspelt[0]["expected"] == "gain_dB, n");
+  CHECK(problems(get(picture + "?gain_dB=1&gain_dB=500&x")).size() == 2);
+  CHECK(problems(get(picture + "?gain_dB=")).size() == 1);
+  CHECK(problems(get(picture + "?gain_dB")).size() == 1);
+  CHECK(problems(get(picture + "?gain_dB=x&n=1&n=2")).size() == 2);
+  CHECK(problems(get("/api/cell?scope=x&frame=1&column=1&row=1&rows=2")).size() == 2);
+  CHECK(problems(get("/api/status?token=x")).size() == 1);
+  CHECK(problems(post("/api/weather?rain=1", R"({"rain_rate_mm_per_h": 4})")).size() == 1);
+  CHECK(office.session->scene()->weather.rain_rate_mm_per_h == 0.0);
+  for (const std::string& fine : {picture, picture + "?", picture + "?n=17&gain_dB=6",
+                                  std::string("/?token=x"), std::string("/api/plan?n=")})
+    CHECK(status(fine) == 200);
+  CHECK(status("/nothing?x=1") == 404);
+  CHECK(status("/frame/none.png?x=1") == 404);
+}
+
 TEST_CASE("What is wrong with values together is told beside those that are wrong alone",
           "[desk]") {
   const Office office;

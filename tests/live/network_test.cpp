@@ -284,7 +284,7 @@ TEST_CASE(
   frame->cscope = {1, 2, {30, 40}};
   station.hub.publish(frame);
   const std::string ask = " HTTP/1.1\r\nHost: " + station.host() + "\r\n\r\n";
-  for (const char* target : {"/stream", "/stream/bscope?x=1"}) {
+  for (const char* target : {"/stream", "/stream/bscope?n=1"}) {
     const std::string told = answer_to(station, "GET " + std::string(target) + ask);
     CHECK(told.find("multipart/x-mixed-replace; boundary=frame") != std::string::npos);
     CHECK(told.find(core::jpeg_bytes(frame->bscope)) != std::string::npos);
@@ -296,6 +296,7 @@ TEST_CASE(
       std::string{static_cast<char>(size & 0xff), static_cast<char>(size >> 8), 0, 0} + message));
   CHECK(answer_to(station, "GET /stream/../etc" + ask).starts_with("HTTP/1.1 404"));
   CHECK(answer_to(station, "POST /stream" + ask).starts_with("HTTP/1.1 415"));
+  CHECK(answer_to(station, "GET /stream?gain_dB=6" + ask).starts_with("HTTP/1.1 422"));
   wait_for([&] { return station.network.clients() == 0; });  // each left
 }
 
