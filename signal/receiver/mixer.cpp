@@ -20,9 +20,17 @@ constexpr double kStop_dB = 100.0;
 // What the low pass reaches to either side, times what it takes to fall.
 constexpr double kReach = 0.5 * (kStop_dB - 8.0) / (2.285 * 2.0 * core::kPi);
 
+void check_samples(double count) {
+  if (!(count <= kMostSamples))
+    core::throw_input_error(core::ErrorClass::limit, "--mixer", count,
+                            "at most 3e7 samples of the product: a shorter ramp, a smaller sweep");
+}
+
 // Kaiser, "Nonrecursive digital filter design using the I0-sinh window function", 1974.
 std::vector<double> low_pass(double pass_Hz, double stop_Hz, double rate_Hz) {
-  const int half = static_cast<int>(std::ceil(kReach * rate_Hz / (stop_Hz - pass_Hz)));
+  const double wanted = std::ceil(kReach * rate_Hz / (stop_Hz - pass_Hz));
+  check_samples(2.0 * wanted + 1.0);
+  const int half = static_cast<int>(wanted);
   const double beta = 0.1102 * (kStop_dB - 8.7), cut = (pass_Hz + stop_Hz) / rate_Hz;
   std::vector<double> taps;
   double sum = 0.0;
@@ -113,12 +121,10 @@ MixerTrace mixer_trace(const Waveform& waveform, const ScatterPath& echo) {
         core::number_text(0.5 * rate_Hz) +
             " or more, the highest beat of its samples: or sum and beat overlap");
   // A whole number of samples of the product for one of the beat.
-  const auto times = static_cast<int>(std::ceil(kSweepsOfRate * waveform.bandwidth_Hz / rate_Hz));
+  const double times = std::ceil(kSweepsOfRate * waveform.bandwidth_Hz / rate_Hz);
   const double fine_Hz = rate_Hz * times;
-  const double count = static_cast<double>(samples) * times;
-  if (!(count <= kMostSamples))
-    core::throw_input_error(core::ErrorClass::limit, "--mixer", count,
-                            "at most 3e7 samples of the product: a shorter ramp, a smaller sweep");
+  const double count = samples * times;
+  check_samples(count);
   MixerTrace trace;
   trace.carrier_Hz = 1.5 * waveform.bandwidth_Hz;
   trace.step_s = 1.0 / fine_Hz;

@@ -207,3 +207,14 @@ TEST_CASE("Behind the low pass the mixer's product is the difference alone", "[r
   for (const double value : mixer_trace(chirp_sequence(narrow), at_rest(100.0)).beat)
     CHECK(std::abs(value) < 0.501);
 }
+
+TEST_CASE("A mixer's product of more samples than a number holds is refused, not wrapped around",
+          "[receiver]") {
+  // A ramp of 2 s sampled at 1 Hz: 9e9 samples of the product for one of the beat.
+  ChirpSequenceParameters endless;
+  endless.bandwidth_Hz = 1e9;
+  endless.sample_rate_Hz = 1.0;
+  endless.ramp_s = endless.interval_s = 2.0;
+  endless.chirps = 1;
+  CHECK(code_of([&] { mixer_trace(chirp_sequence(endless), at_rest(100.0)); }) == "E-LIMIT");
+}
