@@ -45,4 +45,9 @@ std::vector<std::complex<float>> read_npy(const std::filesystem::path& path,
                                           const NpyHeader& header, std::size_t first,
                                           std::size_t count, double largest = kMostFloat);
 
+// The farthest from 0 that a part of these values is, as the file has them: below the smallest float too, where
+// read_npy gives 0. Refuses what that refuses.
+double largest_npy(const std::filesystem::path& path, const NpyHeader& header, std::size_t first,
+                   std::size_t count, double largest = kMostFloat);
+
 }  // namespace fanbeam::core

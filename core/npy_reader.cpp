@@ -103,6 +103,37 @@ std::complex<double> npy_value(std::string_view type, const char* bytes) {
   return part(std::int16_t{}, 0);
 }
 
+struct NpyStretch {
+  std::size_t first, count;
+  double largest;
+};
+
+// Hands each value to `take` as the file has it.
+template <class Take>
+void read_each(const fs::path& path, const NpyHeader& header, const NpyStretch& stretch,
+               const Take& take) {
+  std::ifstream stream(path, std::ios::binary);
+  stream.seekg(static_cast<std::streamoff>(header.begin_byte + stretch.first * header.value_bytes));
+  std::string bytes(stretch.count * header.value_bytes, '\0');
+  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!stream) refuse_npy(ErrorClass::io, path, "values", "read failed", "a readable file");
+  for (std::size_t i = 0; i < stretch.count; ++i) {
+    const std::complex<double> value =
+        npy_value(header.type, bytes.data() + i * header.value_bytes);
+    const std::size_t number = stretch.first + i;
+    const auto refuse = [&](ErrorClass kind, const std::string& found, const std::string& wanted) {
+      refuse_npy(kind, path, "value " + std::to_string(number), found, wanted);
+    };
+    for (const double part : {value.real(), value.imag()}) {
+      if (!std::isfinite(part)) refuse(ErrorClass::nonfinite, "not finite", "finite samples");
+      if (std::abs(part) > stretch.largest)
+        refuse(ErrorClass::range, number_text(part),
+               number_text(-stretch.largest) + " to " + number_text(stretch.largest));
+    }
+    take(value);
+  }
+}
+
 }  // namespace
 
 std::size_t NpyHeader::count() const {
@@ -153,27 +184,21 @@ NpyHeader read_npy_header(const fs::path& path) {
 
 std::vector<std::complex<float>> read_npy(const fs::path& path, const NpyHeader& header,
                                           std::size_t first, std::size_t count, double largest) {
-  std::ifstream stream(path, std::ios::binary);
-  stream.seekg(static_cast<std::streamoff>(header.begin_byte + first * header.value_bytes));
-  std::string bytes(count * header.value_bytes, '\0');
-  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!stream) refuse_npy(ErrorClass::io, path, "values", "read failed", "a readable file");
-  std::vector<std::complex<float>> values(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::complex<double> value =
-        npy_value(header.type, bytes.data() + i * header.value_bytes);
-    const auto refuse = [&](ErrorClass kind, const std::string& found, const std::string& wanted) {
-      refuse_npy(kind, path, "value " + std::to_string(first + i), found, wanted);
-    };
-    for (const double part : {value.real(), value.imag()}) {
-      if (!std::isfinite(part)) refuse(ErrorClass::nonfinite, "not finite", "finite samples");
-      if (std::abs(part) > largest)
-        refuse(ErrorClass::range, number_text(part),
-               number_text(-largest) + " to " + number_text(largest));
-    }
-    values[i] = static_cast<std::complex<float>>(value);
-  }
+  std::vector<std::complex<float>> values;
+  values.reserve(count);
+  read_each(path, header, {first, count, largest}, [&](const std::complex<double>& value) {
+    values.push_back(static_cast<std::complex<float>>(value));
+  });
   return values;
+}
+
+double largest_npy(const fs::path& path, const NpyHeader& header, std::size_t first,
+                   std::size_t count, double largest) {
+  double found = 0.0;
+  read_each(path, header, {first, count, largest}, [&](const std::complex<double>& value) {
+    found = std::max({found, std::abs(value.real()), std::abs(value.imag())});
+  });
+  return found;
 }
 
 }  // namespace fanbeam::core

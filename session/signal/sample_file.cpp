@@ -18,6 +18,9 @@ constexpr std::size_t kMostRecordedFrames = 1'000'000;
 constexpr std::size_t kMostFrameValues = std::size_t{1} << 28U;
 // (1e10 * 2^28)^2 is 7e36.
 constexpr double kMostSample_sqrtW = 1e10;
+// Noise 150 dB below is 3e-38, hardly less than the smallest float with all its digits.
+constexpr double kLeastSample_sqrtW = 1e-30;
+constexpr std::size_t kValuesAtOnce = std::size_t{1} << 20U;
 
 bool has(const std::vector<std::string>& axes, const char* name) {
   return std::find(axes.begin(), axes.end(), name) != axes.end();
@@ -82,6 +85,8 @@ SampleFiles::SampleFiles(std::vector<std::filesystem::path> files, const FmcwRad
   if (frames > kMostRecordedFrames)
     problems.error(core::ErrorClass::limit, core::Place{files_.back().path.string()}, "shape",
                    std::to_string(frames) + " frames in all", "a million at most");
+  for (const File& file : files_)
+    if (!problems.is_full()) check_values(file, problems);
   problems.throw_if_errors();
   frames_ = static_cast<int>(frames);
 }
@@ -117,13 +122,35 @@ void SampleFiles::correct(core::ProblemList& problems) {
   check("samples.channel_gain_dB", layout_.channel_gains_dB);
   check("samples.channel_phase_deg", layout_.channel_phases_rad);
   if (problems.has_errors()) return;
-  for (const std::complex<double>& known :
-       channel_factors(layout_.channel_gains_dB, layout_.channel_phases_rad, shape_.channels))
-    corrections_.push_back(static_cast<std::complex<float>>(layout_.scale_sqrtW / known));
   double largest = 0.0;
-  for (const std::complex<float>& one : corrections_)
-    largest = std::max(largest, std::abs(static_cast<std::complex<double>>(one)));
+  for (const std::complex<double>& known :
+       channel_factors(layout_.channel_gains_dB, layout_.channel_phases_rad, shape_.channels)) {
+    const std::complex<double> factor = layout_.scale_sqrtW / known;
+    corrections_.push_back(static_cast<std::complex<float>>(factor));
+    largest = std::max(largest, std::abs(factor));
+  }
   most_value_ = std::min(kMostSample_sqrtW / largest, core::kMostFloat);
+  least_value_ = kLeastSample_sqrtW / std::min(largest, 1.0);
+}
+
+// Found when its turn comes, a value in the last of many files would cost the tracks of all before it.
+void SampleFiles::check_values(const File& file, core::ProblemList& problems) const {
+  if (file.header.type == "<i2" && most_value_ >= 32768.0 && least_value_ <= 1.0) return;
+  const std::size_t count = file.header.count();
+  double largest = 0.0;
+  try {
+    for (std::size_t from = 0; from < count; from += kValuesAtOnce)
+      largest =
+          std::max(largest, core::largest_npy(file.path, file.header, from,
+                                              std::min(kValuesAtOnce, count - from), most_value_));
+  } catch (const core::InputError& error) {
+    problems.append(error.problems());
+    return;
+  }
+  if (largest > 0.0 && largest < least_value_)
+    problems.error(core::ErrorClass::range, core::Place{file.path.string()}, "largest value",
+                   core::number_text(largest),
+                   "at least " + core::number_text(least_value_) + ", or zeros alone");
 }
 
 bool SampleFiles::fits(const File& file, core::ProblemList& problems) const {

@@ -11,7 +11,8 @@
 // are told, never what is found. `conjugate` is for mixers that give received minus
 // transmitted, where the beat of rising chirps falls with range. Falling chirps cannot be read: conjugated or real, they
 // have the sign of speeds and azimuths wrong. Parts of samples are within 1e10 sqrt(W), far above any receiver's: their
-// sum over a frame, squared, still is a float.
+// sum over a frame, squared, still is a float. Of a file with anything but zeros the largest is 1e-30 sqrt(W) or more, and
+// 1e-30 without the scale: noise far below it still is a float.
 #pragma once
 
 #include <complex>
@@ -34,15 +35,13 @@ std::optional<std::vector<std::string>> sample_axes(const std::string& text);
 
 class SampleFiles {
  public:
-  // All headers are read, and what is wrong with them is told together: their shapes have to fit the radar's first
+  // All headers and values are read, and what is wrong with them is told together: shapes have to fit the radar's first
   // stage (E-RANGE with what was expected; more samples or chirps than the waveform has are left out, of a ramp's
-  // end).
+  // end); of each file the first value that is not finite or too large is told, or that all are too small.
   SampleFiles(std::vector<std::filesystem::path> files, const FmcwRadar& radar,
               SampleLayout layout);
 
   int frames() const { return frames_; }
-  // How far from 0 a value in the files may be, before any scale.
-  double most_value() const { return most_value_; }
   signal::FloatCube frame(int index) const;
 
  private:
@@ -54,6 +53,7 @@ class SampleFiles {
   void add(std::filesystem::path path, core::ProblemList& problems);
   bool fits(const File& file, core::ProblemList& problems) const;
   void correct(core::ProblemList& problems);
+  void check_values(const File& file, core::ProblemList& problems) const;
 
   std::vector<File> files_;
   SampleLayout layout_;
@@ -61,7 +61,8 @@ class SampleFiles {
   signal::CubeShape shape_;
   int transmitters_ = 1, receivers_ = 1, slots_ = 1;
   bool real_ = false;
-  double most_value_ = 0.0;
+  // How far from 0 a value in the files may be and the largest of a file has to be, before any scale.
+  double most_value_ = core::kMostFloat, least_value_ = 0.0;
   int frames_ = 0;
 };
 

@@ -114,6 +114,16 @@ TEST_CASE("A NumPy value beyond the largest is told with its place and sign", "[
                     Catch::Contains("E-RANGE value 1 = -4: expected -3.5 to 3.5"));
 }
 
+TEST_CASE("The largest NumPy value is told where floats hold nothing so small", "[npy]") {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "small.npy";
+  write_npy(file, {3}, std::vector<double>{1e-50, -2e-50, 0.0});
+  const NpyHeader header = read_npy_header(file);
+  CHECK(largest_npy(file, header, 0, 3) == 2e-50);
+  CHECK(largest_npy(file, header, 0, 1) == 1e-50);
+  CHECK_THROWS_WITH(largest_npy(file, header, 0, 3, 1e-60), Catch::Contains("value 0 = 1e-50"));
+}
+
 TEST_CASE("NumPy files that lie, are cut or hold what is no number are refused", "[npy]") {
   const TemporaryFolder folder;
   CHECK(code_of(folder.path() / "none.npy") == "E-IO");

@@ -79,8 +79,8 @@ std::unique_ptr<MeasuredSource> scene_source(const scenes::SceneDescription& des
 std::unique_ptr<MeasuredSource> detection_source(
     const std::filesystem::path& path, const std::optional<std::filesystem::path>& radar_file,
     const SourceSettings& settings);
-// `path`: as it was asked for, of which the source has its name. All values are read once before: of every file the
-// first that is not finite is told (E-NONFINITE).
+// `path`: as it was asked for, of which the source has its name. All values are read once before
+// (SampleFiles).
 std::unique_ptr<MeasuredSource> sample_source(const std::filesystem::path& path,
                                               const std::vector<std::filesystem::path>& files,
                                               const std::filesystem::path& radar_file,

@@ -35,25 +35,6 @@ std::vector<fs::path> numpy_files_in(const fs::path& folder) {
   return files;
 }
 
-// Found when its turn comes, a value in the last of many files would cost the tracks of all before it.
-void check_values(const std::vector<fs::path>& files, double most_value) {
-  constexpr std::size_t kValuesAtOnce = std::size_t{1} << 20U;
-  core::ProblemList problems;
-  for (const fs::path& file : files) {
-    if (problems.is_full()) break;
-    try {
-      const core::NpyHeader header = core::read_npy_header(file);
-      const bool any_fits = header.type == "<i2" && most_value >= 32768.0;
-      const std::size_t count = any_fits ? 0 : header.count();
-      for (std::size_t from = 0; from < count; from += kValuesAtOnce)
-        core::read_npy(file, header, from, std::min(kValuesAtOnce, count - from), most_value);
-    } catch (const core::InputError& error) {
-      problems.append(error.problems());
-    }
-  }
-  problems.throw_if_errors();
-}
-
 class SampleSource : public MeasuredSource {
  public:
   SampleSource(const fs::path& path, const std::vector<fs::path>& files, const fs::path& radar_file,
@@ -67,8 +48,8 @@ class SampleSource : public MeasuredSource {
                                check_detects(radar);
                                return radar;
                              })),
-        files_(files, radar_, settings_.layout) {
-    check_values(files, files_.most_value());
+        files_(radar_in_file(radar_file,
+                             [&] { return SampleFiles(files, radar_, settings_.layout); })) {
     name = core::safe_word(fs::absolute(path).lexically_normal().stem().string());
     kind = "samples";
     // Several frames in a file have no times there.
