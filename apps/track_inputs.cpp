@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -73,14 +72,6 @@ bool is_ours(const fs::path& record) {
 constexpr std::array<std::pair<const char*, std::string_view>, 2> kTables = {
     {{"tracks.csv", session::kTrackColumns}, {"measurements.csv", session::kMeasurementColumns}}};
 
-bool begins_with(const fs::path& file, std::string_view text) {
-  core::ProblemList none;
-  std::ifstream stream = core::open_file(file, none);
-  std::string head(text.size(), '\0');
-  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
-  return head == text;
-}
-
 [[noreturn]] void refuse_output(core::ErrorClass kind, const fs::path& folder,
                                 const std::string& expected) {
   core::throw_input_error(kind, "--output", "\"" + folder.string() + "\"", expected);
@@ -140,7 +131,7 @@ void check_output(const std::string& input, const fs::path& folder,
       const fs::path table = (folder / part / name).lexically_normal();
       if (is_file) refuse_output_among({input}, table, "--output");
       // Beside a record of ours a table is ours, of an earlier version with other columns too.
-      if (!has_record && fs::exists(table, status) && !begins_with(table, columns))
+      if (!has_record && fs::exists(table, status) && !core::file_begins_with(table, columns))
         refuse_output(core::ErrorClass::range, folder,
                       "a folder without " + (part / fs::path(name)).string() +
                           " of something else than fanbeam track");

@@ -91,6 +91,14 @@ std::ifstream open_file(const fs::path& path, ProblemList& problems) {
   return stream;
 }
 
+bool file_begins_with(const fs::path& path, std::string_view text) {
+  ProblemList none;
+  std::ifstream stream = open_file(path, none);
+  std::string head(text.size(), '\0');
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head == text;
+}
+
 std::string read_file(const fs::path& path, std::uint64_t largest_bytes) {
   ProblemList problems;
   std::ifstream stream = open_file(path, problems);

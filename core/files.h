@@ -16,6 +16,9 @@ class ProblemList;
 // writes to it: that, and what the system refuses, is E-IO in `problems`, and the stream is not open.
 std::ifstream open_file(const std::filesystem::path& path, ProblemList& problems);
 
+// Whether the file's first bytes are `text`: how a table tells who wrote it. False for what open_file does not open.
+bool file_begins_with(const std::filesystem::path& path, std::string_view text);
+
 // The file's bytes. Throws InputError: E-IO when it cannot be read, E-LIMIT when larger than
 // `largest_bytes` (checked before anything is allocated).
 std::string read_file(const std::filesystem::path& path, std::uint64_t largest_bytes);

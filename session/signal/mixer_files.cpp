@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <system_error>
 
+#include "core/errors.h"
 #include "core/files.h"
 #include "session/plots/gnuplot.h"
 
@@ -12,6 +15,25 @@ namespace fanbeam::session {
 namespace {
 
 constexpr std::size_t kMostRows = 20'000;
+constexpr std::string_view kMixerColumns = "time_s,transmitted,received,product\n";
+constexpr std::string_view kBeatColumns = "time_s,beat\n";
+
+// A table that begins otherwise is somebody's, and so is a picture without the table that is written before it.
+void refuse_tables_of_others(const std::filesystem::path& folder) {
+  core::ProblemList problems;
+  const auto check = [&](const char* name, bool ours) {
+    std::error_code status;
+    if (!ours && std::filesystem::exists(folder / name, status))
+      problems.error(
+          core::ErrorClass::range, {}, "--mixer", "\"" + folder.string() + "\"",
+          fmt::format("a folder without {} of something else than fanbeam waveform", name));
+  };
+  const bool is_mixer = core::file_begins_with(folder / "mixer.csv", kMixerColumns);
+  check("mixer.csv", is_mixer);
+  check("beat.csv", core::file_begins_with(folder / "beat.csv", kBeatColumns));
+  check("mixer.png", is_mixer);
+  problems.throw_if_errors();
+}
 
 // gnuplot's inline data of y over x.
 std::string data(const char* name, const std::vector<double>& values, std::size_t count,
@@ -55,11 +77,12 @@ std::string script(const signal::MixerTrace& trace, const std::string& title,
 
 void write_mixer(const std::filesystem::path& folder, const signal::MixerTrace& trace,
                  const std::string& title) {
-  std::string rows = "time_s,transmitted,received,product\n";
+  refuse_tables_of_others(folder);
+  std::string rows(kMixerColumns);
   for (std::size_t i = 0; i < std::min(kMostRows, trace.product.size()); ++i)
     rows += fmt::format("{:.9g},{:.6f},{:.6f},{:.6f}\n", static_cast<double>(i) * trace.step_s,
                         trace.transmitted[i], trace.received[i], trace.product[i]);
-  std::string beat = "time_s,beat\n";
+  std::string beat(kBeatColumns);
   for (std::size_t i = 0; i < trace.beat.size(); ++i)
     beat += fmt::format("{:.9g},{:.7f}\n", static_cast<double>(i) * trace.sample_s, trace.beat[i]);
   core::write_file_atomically(folder / "mixer.csv", rows);

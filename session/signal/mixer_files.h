@@ -9,7 +9,8 @@
 namespace fanbeam::session {
 
 // DIR/mixer.csv: the first 20 000 samples of what goes in and what comes out;
-// DIR/beat.csv: all samples of the beat; DIR/mixer.png: both.
+// DIR/beat.csv: all samples of the beat; DIR/mixer.png: both. Throws InputError E-RANGE of --mixer where files of these
+// names are somebody's: tables with other columns, a picture without its table.
 void write_mixer(const std::filesystem::path& folder, const signal::MixerTrace& trace,
                  const std::string& title);
 

@@ -73,3 +73,24 @@ TEST_CASE("The waveform command tells what does not go together in the units of 
   told("--sample-rate 100000", "--sample-rate = 5.12e+08 samples: expected at most 1e8 in a frame");
   told("--chirps 65536 --slots 256", "--chirps x slots = 16777216: expected 1 to 1000000");
 }
+
+TEST_CASE("A mixer's tables do not take the place of somebody's", "[waveform_command]") {
+  const tests::TemporaryFolder folder;
+  const auto mixer = [&] {
+    return tests::run_fanbeam("waveform --range 60 --mixer " + tests::quoted(folder.path()));
+  };
+  folder.write("mixer.csv", "time_s,volts\n0,1\n");
+  folder.write("beat.csv", "mine");
+  auto run = mixer();
+  INFO(run.output);
+  CHECK(run.exit_code == 2);
+  for (const char* name : {"without mixer.csv", "without beat.csv"})
+    CHECK(run.output.find(name) != std::string::npos);
+  CHECK(tests::bytes_of(folder.path() / "beat.csv") == "mine");
+  for (const char* name : {"mixer.csv", "beat.csv"}) std::filesystem::remove(folder.path() / name);
+  folder.write("mixer.png", "mine");
+  CHECK(mixer().exit_code == 2);
+  std::filesystem::remove(folder.path() / "mixer.png");
+  CHECK(mixer().exit_code == 0);
+  CHECK(mixer().exit_code == 0);  // its own it writes again
+}

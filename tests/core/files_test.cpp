@@ -220,3 +220,14 @@ TEST_CASE("F05 paths outside the folder are refused with place and field", "[fil
         std::string(error.what()).starts_with("scene.toml:3:1: E-PATH model.file = \"../secret\""));
   }
 }
+
+TEST_CASE("How a file begins is told of what there is of it", "[files]") {
+  const Scratch scratch;
+  std::ofstream(scratch / "table.csv") << "time_s,beat\n0,1\n";
+  std::ofstream(scratch / "short.csv") << "time_s";
+  CHECK(file_begins_with(scratch / "table.csv", "time_s,beat\n"));
+  CHECK_FALSE(file_begins_with(scratch / "table.csv", "time_s,other\n"));
+  CHECK_FALSE(file_begins_with(scratch / "short.csv", "time_s,beat\n"));
+  CHECK_FALSE(file_begins_with(scratch / "none.csv", "time_s"));
+  CHECK_FALSE(file_begins_with(scratch.folder(), "time_s"));
+}
