@@ -32,6 +32,10 @@ void append(const DetectedFrame& added, DetectedFrame& frame, int& next) {
   next += static_cast<int>(renumbered.size());
 }
 
+std::string words_of(const RadarVelocity_mps& velocity_mps) {
+  return "[" + core::number_text(velocity_mps[0]) + ", " + core::number_text(velocity_mps[1]) + "]";
+}
+
 // Frames of one time are one frame, of a file or of several. Each file keeps the limits; so must all together.
 class FramesInOrder {
  public:
@@ -52,6 +56,7 @@ class FramesInOrder {
           refuse_too_many("detections in a frame", kMostDetections, {file.string()}, problems);
           return false;
         }
+        keep_velocity(one, {file.string()}, "frame " + std::to_string(i), problems);
         append(one, frames_.back(), next_cluster_);
       } else if (problems.all().size() < kMostDetectionProblems) {
         problems.error(ErrorClass::time, {file.string()}, "frame " + std::to_string(i) + " time_s",
@@ -63,6 +68,19 @@ class FramesInOrder {
   std::vector<DetectedFrame> taken() { return std::move(frames_); }
 
  private:
+  // A radar moves one way at a time, whichever of the frames tells it.
+  void keep_velocity(const DetectedFrame& added, const core::Place& place, const std::string& name,
+                     core::ProblemList& problems) {
+    std::optional<RadarVelocity_mps>& known = frames_.back().radar_velocity_mps;
+    if (!added.radar_velocity_mps) return;
+    if (!known) known = added.radar_velocity_mps;
+    if (*known != *added.radar_velocity_mps && problems.all().size() < kMostDetectionProblems)
+      problems.error(ErrorClass::range, place, name + " radar_velocity_mps",
+                     words_of(*added.radar_velocity_mps),
+                     words_of(*known) + ", as another frame of " + core::number_text(added.time_s) +
+                         " s has it");
+  }
+
   std::vector<DetectedFrame> frames_;
   int next_cluster_ = 0;
 };

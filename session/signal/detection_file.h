@@ -15,7 +15,8 @@
 // A table does not tell the radar's velocity: it is that of the run.json of `fanbeam fmcw` in the folder
 // above (recorded_moments.h), which also tells the time of a table without rows (without it, no frame) and
 // may not contradict a row's (E-TIME).
-// Frames of one time are one; clusters are each frame's own, whatever their numbers.
+// Frames of one time are one, with the velocity that any of them tells (E-RANGE where two tell different ones);
+// clusters are each frame's own, whatever their numbers.
 //
 // Limits: files of 256 MiB; a million frames, 100 000 detections in a frame (a tracker takes fewer
 // measurements), of all files together; ranges above 0 to 1e6 m, speeds within 1e5 m/s, azimuths within a half turn,

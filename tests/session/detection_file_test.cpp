@@ -62,3 +62,24 @@ TEST_CASE("A million frames are taken from all files together", "[detection_file
   CHECK(fault.find("b.json") != std::string::npos);
   CHECK(fault.find("E-LIMIT frames = more than 1000000") != std::string::npos);
 }
+
+// The second one was dropped, and what it said of the radar with it.
+TEST_CASE("Frames of one time have the radar's velocity of whichever tells it",
+          "[detection_file]") {
+  const TemporaryFolder folder;
+  const auto frame = [](const std::string& velocity) {
+    return R"({"time_s": 1, "detections": [])" + velocity + "}";
+  };
+  const std::string told = R"(, "radar_velocity_mps": [8, 1])";
+  core::ProblemList problems;
+  folder.write("a.json", R"({"frames": [)" + frame("") + "," + frame(told) + "]}");
+  folder.write("b.json", frame(told));
+  const auto frames = session::read_detections(folder.path(), problems);
+  problems.throw_if_errors();
+  REQUIRE(frames.size() == 1);
+  CHECK(frames[0].radar_velocity_mps == session::RadarVelocity_mps{8.0, 1.0});
+  folder.write("c.json", frame(R"(, "radar_speed_mps": 9)"));
+  const std::string fault = fault_of(folder);
+  CHECK(fault.find("c.json: E-RANGE frame 0 radar_velocity_mps = [9, 0]: expected [8, 1]") !=
+        std::string::npos);
+}
