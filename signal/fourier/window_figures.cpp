@@ -28,12 +28,15 @@ double response(const std::vector<double>& weights, double bins) {
   return std::norm(sum) / (at_zero * at_zero);
 }
 
+// Of a few weights one may be all there is, with the same response over the whole axis.
 double half_power_width(const std::vector<double>& weights) {
+  const double farthest = 0.5 * static_cast<double>(weights.size());
   double inside = 0.0;
   double outside = 0.25;
   while (response(weights, outside) > 0.5) {
+    if (outside == farthest) return 2.0 * farthest;
     inside = outside;
-    outside *= 2.0;
+    outside = std::min(2.0 * outside, farthest);
   }
   for (int step = 0; step < 60; ++step) {
     const double middle = 0.5 * (inside + outside);

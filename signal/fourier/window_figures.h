@@ -4,7 +4,8 @@
 // With W(f) = sum over n of w[n] exp(-j 2 pi f n / N), f in bins, and t[n] = n - N/2:
 //
 //   half_power_width_bins   twice the f where |W(f)|^2 = |W(0)|^2 / 2; times c / 2B it is the range
-//                           resolution, which a cell's spacing is not
+//                           resolution, which a cell's spacing is not; N, the whole axis, where |W|^2 falls
+//                           nowhere so far, as of hann's 0, 1, 0
 //   peak_side_lobe_dB       largest |W|^2 beyond the first minimum, over |W(0)|^2; -infinity where the
 //                           main lobe is all there is
 //   noise_bandwidth_bins    N sum w^2 / (sum w)^2

@@ -216,3 +216,12 @@ TEST_CASE("windows outside their range are refused", "[window]") {
   CHECK_THROWS_AS(window_figures({1.0, 1.0}), core::InputError);
   CHECK_THROWS_AS(peak_side_lobe_dB({1.0, 1.0}), core::InputError);
 }
+
+// The width was infinite, and of a radar of three chirps that of its clusters was refused.
+TEST_CASE("A window that is one weight among zeros is as wide as the whole axis", "[window]") {
+  const Window hann{.kind = WindowKind::hann, .symmetric = true};
+  CHECK(window_figures(window_weights(hann, 3)).half_power_width_bins == 3.0);
+  CHECK(window_figures(window_weights(hann, 4)).half_power_width_bins < 4.0);
+  const Window narrow{.kind = WindowKind::kaiser, .kaiser_beta = 100.0, .symmetric = true};
+  CHECK(window_figures(window_weights(narrow, 9)).half_power_width_bins == 9.0);
+}
