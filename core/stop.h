@@ -3,8 +3,8 @@
 // A thread works under a token while a StopScope lives on it. Then every parallel loop that it
 // starts (parallel.h) throws Stopped before its next body, on whichever thread that runs, and so
 // does throw_if_stopped: the work unwinds within the time of one body, and what it holds is released
-// as after any other exception. Work under no token is never stopped. Checking costs one read of an
-// atomic number per body.
+// as after any other exception. Bodies that may take long look by throw_if_stopped in between. Work
+// under no token is never stopped. Checking costs one read of an atomic number.
 #pragma once
 
 #include <atomic>

@@ -6,6 +6,7 @@
 #include "core/constants.h"
 #include "core/dispatch.h"
 #include "core/random.h"
+#include "core/stop.h"
 #include "renderer/casting/deposit.h"
 #include "renderer/casting/echo_density.h"
 #include "renderer/casting/fan_layout.h"
@@ -99,11 +100,13 @@ class GroupCaster {
     std::fill_n(elevation_bins(0), kGroupAzimuths * sums_.rows, 0.0);
   }
 
-  // Fills batch after batch by place(first, count), casts and shades `count` new rays of the chain.
+  // Fills batch after batch by place(first, count), casts and shades `count` new rays of the chain. A
+  // group may take a second: a request to stop is seen between two batches.
   template <class Place>
   void cast_rays(int count, const Place& place) {
     const int first = scratch_.rays.append(count);
     for (int done = 0; done < count; done += kBatchRays) {
+      core::throw_if_stopped();
       const int filled = std::min(kBatchRays, count - done);
       place(done, filled);
       batch_.close(filled);

@@ -4,9 +4,18 @@
 #include <mutex>
 
 #include "core/parallel.h"
+#include "core/stop.h"
 
 namespace fanbeam::renderer {
 namespace {
+
+// One body of a loop may hold a second's slices: a request to stop is looked for once in so many of
+// them, some milliseconds. What it leaves of a thread's buffers is put right before their next use.
+constexpr std::size_t kSlicesBetweenLooks = 64;
+
+void look_for_stop(std::size_t slice) {
+  if (slice % kSlicesBetweenLooks == 0) core::throw_if_stopped();
+}
 
 // Sums of a whole fan, zero but for the sub-columns that are marked.
 struct MarkedFan {
@@ -95,6 +104,7 @@ void cast_part(const SliceFrame& frame, std::size_t number, const FanSums& fan, 
   SliceTracer caster(frame);
   const std::size_t count = frame.slices.size();
   for (std::size_t i = count * number / kParts; i < count * (number + 1) / kParts; ++i) {
+    look_for_stop(i);
     bins.weight = frame.slices[i].width_rad / fan.step_rad;
     caster.cast(i, bins);
   }
@@ -122,7 +132,10 @@ void gather_level(const SliceFrame& frame, const std::vector<SubColumnSlices>& c
     }
     bins.weight = 1.0 / static_cast<double>(column.end - column.begin);
     SliceTracer caster(frame);
-    for (std::size_t i = column.begin; i < column.end; ++i) caster.cast(i, bins);
+    for (std::size_t i = column.begin; i < column.end; ++i) {
+      look_for_stop(i);
+      caster.cast(i, bins);
+    }
     std::copy_n(range_bins.begin(), cells, &sums.range_W_per_rad[column.sub_column * cells]);
     if (rows > 0)
       std::copy_n(row_bins.begin() + 1, rows,
