@@ -36,12 +36,29 @@ void raise(const core::InputError& error) {
 
 }  // namespace
 
+std::string shown(const py::handle& value) {
+  const auto text = py::reinterpret_steal<py::object>(PyObject_Repr(value.ptr()));
+  const auto bytes = py::reinterpret_steal<py::bytes>(
+      text ? PyUnicode_AsEncodedString(text.ptr(), "utf-8", "backslashreplace") : nullptr);
+  if (bytes) return bytes;
+  if (!PyErr_ExceptionMatches(PyExc_Exception)) throw py::error_already_set();  // Ctrl-C
+  PyErr_Clear();
+  if (PyLong_Check(value.ptr()))
+    return "a whole number of " +
+           std::to_string(value.attr("bit_length")().cast<unsigned long long>()) + " bits";
+  return std::string("one of type ") + Py_TYPE(value.ptr())->tp_name;
+}
+
 void refuse_type(const std::string& field, const char* expected, const py::handle& value) {
-  throw py::type_error(field + ": expected " + expected + ", not " +
-                       py::repr(value).cast<std::string>());
+  throw py::type_error(field + ": expected " + expected + ", not " + shown(value));
+}
+
+bool is_truth(const py::handle& value) {
+  return py::detail::make_caster<bool>().load(value, false);
 }
 
 py::object whole_number(const py::handle& value) {
+  if (is_truth(value)) return {};
   auto number = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
   PyErr_Clear();
   return number;

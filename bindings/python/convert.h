@@ -41,10 +41,16 @@ constexpr const char* words_for() {
   return "a number";
 }
 
+// As Python shows it. Of what Python has no text for, an integer above 4300 digits or an object whose
+// __repr__ raises, what it is.
+std::string shown(const py::handle& value);
 // Throws TypeError: "seed: expected a whole number, not 'x'".
 [[noreturn]] void refuse_type(const std::string& field, const char* expected,
                               const py::handle& value);
-// As Python counts: 3, numpy.int64(3), not 3.0. Empty for what is no such number.
+// True and False, NumPy's too. Every other object has a truth as well, and none of them is meant; nor
+// are these the numbers that they can be read as.
+bool is_truth(const py::handle& value);
+// As Python counts: 3, numpy.int64(3), not 3.0, not True. Empty for what is no such number.
 py::object whole_number(const py::handle& value);
 
 // What Python told as `field`. Throws TypeError, which names it, for another type. A number of
@@ -53,14 +59,15 @@ template <class T>
 T value_of(const py::handle& value, const std::string& field, core::ProblemList& problems,
            const char* expected = words_for<T>()) {
   if constexpr (std::is_same_v<T, bool>) {
-    // True and False, NumPy's too; every other object has a truth as well, and none of them is meant.
-    py::detail::make_caster<bool> truth;
-    if (!truth.load(value, false)) refuse_type(field, expected, value);
-    return py::detail::cast_op<bool>(truth);
+    if (!is_truth(value)) refuse_type(field, expected, value);
+    return value.cast<bool>();
   } else {
     auto given = py::reinterpret_borrow<py::object>(value);
     if constexpr (std::is_integral_v<T>) given = whole_number(value);
-    if (!given) refuse_type(field, expected, value);
+    if (!given || (std::is_arithmetic_v<T> && is_truth(value))) refuse_type(field, expected, value);
+    // Bytes would be taken for a text.
+    if (std::is_same_v<T, std::string> && !PyUnicode_Check(value.ptr()))
+      refuse_type(field, expected, value);
     try {
       return given.cast<T>();
     } catch (const py::cast_error&) {
@@ -71,7 +78,7 @@ T value_of(const py::handle& value, const std::string& field, core::ProblemList&
     std::string range = "a finite number";
     if constexpr (std::is_integral_v<T>)
       range = std::to_string(Limits::min()) + " to " + std::to_string(Limits::max());
-    problems.error(core::ErrorClass::range, {}, field, py::str(given), range);
+    problems.error(core::ErrorClass::range, {}, field, shown(given), range);
     return T();
   }
 }

@@ -141,15 +141,16 @@ py::dict render(const Scene& scene, const py::tuple& pose, const py::handle& fra
   return result;
 }
 
-// Of the scene's flight; counted from its end where negative, as Python does.
-int frame_number(const Scene& scene, const py::handle& told) {
+// Of the scene's flight; counted from its end where negative, as Python does. `expected`: what the
+// caller takes.
+int frame_number(const Scene& scene, const py::handle& told, const char* expected) {
   const int frames = scene.session().scene()->frame_count();
   core::ProblemList problems;
-  const auto index = value_of<long long>(told, "frame", problems);
+  const auto index = value_of<long long>(told, "frame", problems, expected);
   if (!problems.has_errors() && index >= -frames && index < frames)
     return static_cast<int>(index < 0 ? index + frames : index);
   const std::string last = std::to_string(frames - 1);
-  core::throw_input_error(core::ErrorClass::range, "frame", py::str(told),
+  core::throw_input_error(core::ErrorClass::range, "frame", shown(whole_number(told)),
                           frames == 0 ? "a pose: the scene has no flight"
                                       : "0 to " + last + ", or -1 to -" + std::to_string(frames) +
                                             " from the end: a frame of the flight");
@@ -240,7 +241,7 @@ void add_scene(py::module_& module) {
       .def("own_budget", &own_budget)
       .def("render", &render, py::arg("pose"), py::arg("frame_index"), py::arg("bscope"),
            py::arg("cscope"), py::arg("layers"), py::arg("cscope_layers"), py::arg("labels"))
-      .def("frame_number", &frame_number, py::arg("index"))
+      .def("frame_number", &frame_number, py::arg("index"), py::arg("expected") = "a whole number")
       .def("ground_height_m", &ground_height_m, py::arg("latitude_deg"), py::arg("longitude_deg"))
       .def("trajectory", &trajectory)
       .def("plan", &plan)

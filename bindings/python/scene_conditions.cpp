@@ -20,6 +20,23 @@
 namespace fanbeam::bindings {
 namespace {
 
+// Of three angles in degrees, None for none; what is wrong goes to `problems`, below `field`.
+std::optional<glm::dquat> attitude_of(const py::handle& told, const std::string& field,
+                                      core::ProblemList& problems) {
+  if (told.is_none()) return std::nullopt;
+  constexpr std::array<const char*, 3> kAngles = {".roll_deg", ".pitch_deg", ".heading_deg"};
+  const py::ssize_t size = PySequence_Size(told.ptr());  // -1 of an array without dimensions too
+  PyErr_Clear();
+  if (!py::isinstance<py::sequence>(told) || size != std::ssize(kAngles))
+    refuse_type(field + ".attitude_deg", "roll, pitch and heading", told);
+  const auto angles = py::reinterpret_borrow<py::sequence>(told);
+  std::array<double, 3> angles_rad{};
+  for (std::size_t i = 0; i < kAngles.size(); ++i)
+    angles_rad[i] =
+        core::radians(number_of<double>(angles[i], field + kAngles[i], problems, {}, "deg"));
+  return core::quaternion_from({angles_rad[0], angles_rad[1], angles_rad[2]});
+}
+
 // What is wrong goes to `problems`, below `field`.
 session::TargetState target_of(const py::handle& target, const std::string& field,
                                core::ProblemList& problems) {
@@ -31,16 +48,7 @@ session::TargetState target_of(const py::handle& target, const std::string& fiel
   state.position = {core::radians(number("latitude_deg")), core::radians(number("longitude_deg")),
                     number("height_m")};
   collect(problems, [&] { terrain::check_geodetic(state.position, field.c_str()); });
-  const auto attitude = value_of<std::optional<std::array<double, 3>>>(
-      target.attr("attitude_deg"), field + ".attitude_deg", problems, "roll, pitch and heading");
-  if (attitude) {
-    constexpr std::array<const char*, 3> kAngles = {".roll_deg", ".pitch_deg", ".heading_deg"};
-    for (std::size_t i = 0; i < kAngles.size(); ++i)
-      core::check_range(problems, field + kAngles[i], (*attitude)[i], {}, "deg");
-    state.q_NB =
-        core::quaternion_from({core::radians((*attitude)[0]), core::radians((*attitude)[1]),
-                               core::radians((*attitude)[2])});
-  }
+  state.q_NB = attitude_of(target.attr("attitude_deg"), field, problems);
   if (const py::object rcs_m2 = target.attr("rcs_m2"); !rcs_m2.is_none())
     state.rcs = materials::ConstantRcs{
         number_of<double>(rcs_m2, field + ".rcs_m2", problems, {0.0, 1.0e9}, "m2")};

@@ -47,7 +47,7 @@ def test_every_problem_is_told_at_once(grass):
         grass.set_weather(rain_rate_mm_per_h="much")
     with pytest.raises(fanbeam.InputError, match="frame = 99999: expected 0 to 0, or -1"):
         grass.render(99999)
-    with pytest.raises(TypeError, match="frame: expected a whole number, not 'now'"):
+    with pytest.raises(TypeError, match="frame: expected a fanbeam.Pose or a whole number, not 'now'"):
         grass.render("now")
 
 
@@ -139,6 +139,12 @@ def test_what_is_out_of_range_is_an_input_error(grass, field, call):
         ("pose.latitude_deg", lambda scene: scene.render(fanbeam.Pose("x", 1, 2))),
         ("pose.height_m", lambda scene: scene.render(fanbeam.Pose(52.0, 10.0, None))),
         ("frame", lambda scene: scene.render(1.0)),
+        ("frame", lambda scene: scene.render((52.0, 10.0, 60.0))),
+        # True is no number here, as 1 is no truth.
+        ("frame", lambda scene: scene.render(True)),
+        ("frame", lambda scene: scene.render(np.bool_(False))),
+        ("seed", lambda scene: fanbeam.Scene.open("flat-grass", seed=True)),
+        ("tilt_deg", lambda scene: scene.set_sensor(tilt_deg=False)),
         ("frame_index", lambda scene: scene.render(0, frame_index=3.0)),
         ("bscope", lambda scene: scene.render(0, bscope="no")),
         ("tilt_deg", lambda scene: scene.set_sensor(tilt_deg="3")),
@@ -151,6 +157,8 @@ def test_what_is_out_of_range_is_an_input_error(grass, field, call):
         ("accuracy_grey", lambda scene: scene.set_accuracy("a")),
         ("time_budget_ms", lambda scene: scene.set_time_budget(None)),
         ("targets", lambda scene: scene.set_targets(None)),
+        ("targets", lambda scene: scene.set_targets("mast")),
+        ("targets", lambda scene: scene.set_targets(np.array(2.5))),
         ("target[0]", lambda scene: scene.set_targets([3])),
         ("target[0]", lambda scene: scene.set_targets([(i for i in range(2))])),
         ("latitude_deg", lambda scene: scene.ground_height_m("a", 1)),
@@ -177,6 +185,41 @@ def test_another_type_is_a_type_error_that_names_the_field(grass, field, call):
         call(grass)
 
 
+class Unshown:
+    def __repr__(self):
+        raise ZeroDivisionError
+
+
+# Python makes no text of an integer above 4300 digits, nor of every object.
+def test_what_has_no_text_is_told_with_its_field(grass):
+    long = 10**5000
+    for field, call in (
+        ("frame", lambda: grass.render(long)),
+        ("frame_index", lambda: grass.render(0, frame_index=-long)),
+        ("tilt_deg", lambda: grass.set_sensor(tilt_deg=long)),
+        ("seed", lambda: fanbeam.Scene.open("flat-grass", seed=long)),
+    ):
+        with pytest.raises(fanbeam.InputError, match=f"^E-RANGE {field} = a whole number of 16610 bits: expected "):
+            call()
+    with pytest.raises(TypeError, match="^surface: expected a text, not a whole number of 16610 bits$"):
+        grass.set_surface(long)
+    for field, call in (
+        ("targets", lambda: grass.set_targets(Unshown())),
+        ("target[0]", lambda: grass.set_targets([Unshown()])),
+        ("frame", lambda: grass.render(Unshown())),
+    ):
+        with pytest.raises(TypeError, match=f"^{re.escape(field)}: expected .*, not one of type .*Unshown$"):
+            call()
+
+
+def test_an_angle_of_a_target_that_is_too_large_is_a_number_out_of_range(grass):
+    with pytest.raises(fanbeam.InputError) as told:
+        grass.set_targets([fanbeam.Target("new", 52.0, 10.0, 0.0, 1.0, attitude_deg=(0, 10**400, 0))])
+    assert [(problem.code, problem.field) for problem in told.value.problems] == [("E-RANGE", "target[0].pitch_deg")]
+    with pytest.raises(TypeError, match=r"^target\[0\]\.heading_deg: expected a number, not 'north'$"):
+        grass.set_targets([fanbeam.Target("new", 52.0, 10.0, 0.0, 1.0, attitude_deg=(0, 0, "north"))])
+
+
 def test_numpys_numbers_and_truths_are_taken():
     scene = fanbeam.Scene.open("flat-grass", seed=np.uint64(2**64 - 1), sample=np.bool_(False), threads=np.int32(1))
     scene.set_weather(rain_rate_mm_per_h=np.float32(2.0), melting_layer=np.bool_(True), melting_height_m=500)
@@ -189,10 +232,13 @@ def test_numpys_numbers_and_truths_are_taken():
     ("field", "value"),
     [
         ("name", 5),
+        ("name", b"3"),
         ("latitude_deg", "52"),
         ("height_m", None),
         ("rcs_m2", "bright"),
         ("attitude_deg", (0.0, 0.0)),
+        ("attitude_deg", np.array(1.0)),
+        ("attitude_deg", 3),
     ],
 )
 def test_a_value_of_another_type_is_told_with_its_field(grass, field, value):

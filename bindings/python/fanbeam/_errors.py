@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from typing import NamedTuple
+from typing import Any, NamedTuple, NoReturn
 
 
 class Problem(NamedTuple):
@@ -41,3 +41,30 @@ def warn(problems: list[Problem]) -> None:
     """For functions that users call themselves: the warning shows their line."""
     for problem in problems:
         warnings.warn(problem.text, FanbeamWarning, stacklevel=3)
+
+
+def _shown(value: object) -> str:
+    # Integers above 4300 digits have no text, and users' own objects may have a broken one.
+    try:
+        return repr(value)
+    except Exception:
+        if isinstance(value, int):
+            return f"a whole number of {value.bit_length()} bits"
+        return f"one of type {type(value).__name__}"
+
+
+def refuse_type(field: str, expected: str, value: object) -> NoReturn:
+    """As the extension modules tell it."""
+    raise TypeError(f"{field}: expected {expected}, not {_shown(value)}")
+
+
+def items_of(told: Any, field: str, expected: str) -> list[Any]:
+    """Of an iterable; a text is one of letters, and never meant."""
+    if not isinstance(told, (str, bytes)):
+        try:
+            items = iter(told)
+        except TypeError:  # arrays without dimensions have __iter__ too
+            pass
+        else:
+            return list(items)
+    refuse_type(field, expected, told)

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fanbeam import _core, _paths
-from fanbeam._errors import Problem, warn
+from fanbeam._errors import Problem, items_of, warn
 
 Grey = npt.NDArray[np.uint8]
 Values = npt.NDArray[np.float64]
@@ -390,9 +390,7 @@ class Scene:
 
     def set_targets(self, targets: Iterable[Target]) -> None:
         """Puts these; all others go back to where the scene has them, and new ones vanish."""
-        if not isinstance(targets, Iterable):
-            raise TypeError(f"targets: expected an iterable of fanbeam.Target, not {targets!r}")
-        own = tuple(targets)
+        own = tuple(items_of(targets, "targets", "an iterable of fanbeam.Target"))
         with self._setting:
             warnings = self._core.set_targets(own)
             self._told.targets = copy.deepcopy(own)
@@ -451,7 +449,7 @@ class Scene:
         if isinstance(at, Pose):
             pose = at
         else:
-            number = self._core.frame_number(at)
+            number = self._core.frame_number(at, "a fanbeam.Pose or a whole number")
             pose = self.trajectory[number]
         if frame_index is None:
             frame_index = number
