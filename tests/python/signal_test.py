@@ -91,6 +91,19 @@ def test_what_is_wanted_is_checked(lone_target):
     with pytest.raises(ValueError, match="beats"):
         fanbeam.signal.frame(lone_target, 0, want=("beats",))
     with pytest.raises(fanbeam.InputError) as told:
+        fanbeam.signal.frame(lone_target, 0, want=["maps", "beat", "beats"], seed=-1)
+    assert [(problem.code, problem.field, problem.value) for problem in told.value.problems] == [
+        ("E-REF", "want", '"beats"'),
+        ("E-REF", "want", '"maps"'),
+        ("E-RANGE", "seed", "-1"),
+    ]
+    assert told.value.problems[0].expected == "beat, cube, range-doppler, range-azimuth, detections"
+    # A text is an iterable too, of letters.
+    for want, value in (("beat", "'beat'"), (b"beat", "b'beat'"), (["beat", 1], "1"), ([[1]], r"\[1\]"),
+                        ([b"beat"], "b'beat'"), (np.array(1.0), r"array\(1\.\)")):
+        with pytest.raises(TypeError, match=f"^want: expected an iterable of texts, not {value}$"):
+            fanbeam.signal.frame(lone_target, 0, want=want)
+    with pytest.raises(fanbeam.InputError) as told:
         fanbeam.signal.frame(lone_target, 0, transmitters=0, adc_bits=99)
     assert {problem.field for problem in told.value.problems} == {"transmitters", "adc_bits"}
     with pytest.raises(fanbeam.InputError, match="E-LIMIT samples x chirps x channels"):
@@ -117,6 +130,8 @@ def test_a_value_of_another_type_is_told_with_its_field(lone_target):
         fanbeam.signal.frame(lone_target, 0, numbers={"bandwidth": "x"})
     with pytest.raises(TypeError, match="bandwidth: expected a number, not 'x'"):
         fanbeam.signal.waveform("chirp-sequence", bandwidth="x")
+    with pytest.raises(TypeError, match="chirps: expected a number, not True"):
+        fanbeam.signal.waveform(chirps=True)
     with pytest.raises(TypeError, match="kind: expected a text, not 3"):
         fanbeam.signal.waveform(3)
     with pytest.raises(TypeError, match="scene: expected a fanbeam.Scene, not 'highway-76ghz'"):

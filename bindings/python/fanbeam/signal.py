@@ -23,7 +23,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fanbeam import _signal
-from fanbeam._errors import warn
+from fanbeam._errors import items_of, refuse_type, warn
 from fanbeam._scene import Scene
 
 __all__ = ["SignalFrame", "frame", "waveform"]
@@ -54,7 +54,7 @@ class SignalFrame:
 
 def _numbers(told: Mapping[str, float]) -> dict[str, float]:
     if not isinstance(told, Mapping):
-        raise TypeError(f"numbers: expected names with their numbers, not {told!r}")
+        refuse_type("numbers", "names with their numbers", told)
     return dict(told)
 
 
@@ -93,12 +93,8 @@ def frame(
     unfold         speeds of detections, by time division of the transmitters
     """
     if not isinstance(scene, Scene):
-        raise TypeError(f"scene: expected a fanbeam.Scene, not {scene!r}")
-    if want is not None and not isinstance(want, Iterable):
-        raise TypeError(f"want: expected an iterable of texts, not {want!r}")
-    products = None if want is None else set(want)
-    if unknown := (products or set()) - {"beat", "cube", "range-doppler", "range-azimuth", "detections"}:
-        raise ValueError(f"want: no {', '.join(sorted(map(str, unknown)))}")
+        refuse_type("scene", "a fanbeam.Scene", scene)
+    products = None if want is None else items_of(want, "want", "an iterable of texts")
     told = {
         "waveform": waveform,
         "radar": "" if radar is None else radar,

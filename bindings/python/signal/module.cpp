@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 #include <map>
@@ -11,6 +12,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -109,10 +111,28 @@ void take_numbers(const py::dict& numbers, Settings& settings) {
   problems.throw_if_errors();
 }
 
-// `own`: the radar file that the scene names, which another one replaces.
-session::FmcwSettings settings_of(const py::dict& told, const std::filesystem::path& own) {
+// Of the names in fanbeam.signal.frame's `want`; none where it was not told.
+using Products = std::optional<std::set<std::string>>;
+
+Products products_of(const std::optional<py::list>& want, core::ProblemList& problems) {
+  if (!want) return std::nullopt;
+  constexpr std::array<std::string_view, 5> kNames = {"beat", "cube", "range-doppler",
+                                                      "range-azimuth", "detections"};
+  std::set<std::string> products;
+  for (const py::handle name : *want)
+    products.insert(value_of<std::string>(name, "want", problems, "an iterable of texts"));
+  for (const std::string& name : products)
+    if (std::find(kNames.begin(), kNames.end(), name) == kNames.end())
+      problems.error(core::ErrorClass::ref, {}, "want", "\"" + name + "\"",
+                     fmt::format("{}", fmt::join(kNames, ", ")));
+  return products;
+}
+
+// What is wrong goes to `problems`. `own`: the radar file that the scene names, which another one
+// replaces.
+session::FmcwSettings settings_of(const py::dict& told, const std::filesystem::path& own,
+                                  core::ProblemList& problems) {
   session::FmcwSettings settings;
-  core::ProblemList problems;
   const auto given = value_of<std::filesystem::path>(told["radar"], "radar", problems);
   if (const std::filesystem::path& file = given.empty() ? own : given; !file.empty())
     collect(problems, [&] { settings = session::radar_settings(file); });
@@ -138,7 +158,6 @@ session::FmcwSettings settings_of(const py::dict& told, const std::filesystem::p
   take_number("adc_bits", settings.adc_bits, {0, 24});
   take("unfold", settings.unfold);
   take("seed", settings.seed);
-  problems.throw_if_errors();
   return settings;
 }
 
@@ -193,8 +212,7 @@ py::dict axes_of(const session::FmcwRadar& radar) {
 }
 
 // Of nothing asked for, what the waveform has.
-std::set<std::string> chosen_products(const std::optional<std::set<std::string>>& asked,
-                                      const session::FmcwRadar& radar) {
+std::set<std::string> chosen_products(const Products& asked, const session::FmcwRadar& radar) {
   if (!asked)
     return radar.maps ? std::set<std::string>{"beat", "detections"} : std::set<std::string>{"beat"};
   for (const std::string& name : *asked)
@@ -205,10 +223,13 @@ std::set<std::string> chosen_products(const std::optional<std::set<std::string>>
   return *asked;
 }
 
-py::dict frame(const Scene& scene, int index, const std::optional<std::set<std::string>>& asked,
+py::dict frame(const Scene& scene, int index, const std::optional<py::list>& want,
                const py::dict& told) {
   const std::shared_ptr<const scenes::Scene> now = scene.session().scene();
-  const session::FmcwSettings settings = settings_of(told, now->description.signal_file);
+  core::ProblemList problems;
+  const Products asked = products_of(want, problems);
+  const session::FmcwSettings settings = settings_of(told, now->description.signal_file, problems);
+  problems.throw_if_errors();
   const sensors::Sensor& sensor = now->description.sensor;
   const auto made = std::make_shared<Made>();
   told_in_python_words([&] {
