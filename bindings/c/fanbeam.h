@@ -203,7 +203,8 @@ FANBEAM_API fanbeam_status fanbeam_set_samples(fanbeam_session* session,
                                                double samples_per_cell) FANBEAM_NOEXCEPT;
 
 /* What fanbeam_render is to leave, and where. NULL is a picture that is not wanted; what nobody wants
- * is not computed. Counts are of elements: at least rows x columns, what is beyond stays. */
+ * is not computed, but for the powers of the B-scope, which every frame is made with. Counts are of
+ * elements: at least rows x columns, what is beyond stays. */
 typedef struct fanbeam_output {
   uint32_t size;
   uint32_t layers; /* 0, FANBEAM_BSCOPE, or FANBEAM_BSCOPE | FANBEAM_CSCOPE: ground truth */

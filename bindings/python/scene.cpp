@@ -119,6 +119,9 @@ py::dict render(const Scene& scene, const py::tuple& pose, const py::handle& fra
     if (asked && !session.opened()->options.heights_shown)
       problems.error(core::ErrorClass::ref, {}, field, "True",
                      "False, as the scene was opened with cscope=False");
+  if (!shown.bscope && !shown.cscope && !shown.layers && !shown.cscope_layers && !labelled)
+    problems.error(core::ErrorClass::ref, {}, "bscope, cscope, layers, cscope_layers, labels",
+                   "all False", "True for at least one of them");
   problems.throw_if_errors();
   renderer::Products wanted = shown;
   wanted.bscope = shown.bscope || labelled;

@@ -91,6 +91,17 @@ def test_problems_of_one_call_are_told_together(grass, fields, call):
     assert "--" not in str(told.value)
 
 
+def test_a_frame_of_nothing_is_refused(grass):
+    nothing = {"bscope": False, "cscope": False}
+    with pytest.raises(fanbeam.InputError) as told:
+        grass.render(0, frame_index=-1, **nothing)
+    assert [(problem.code, problem.field) for problem in told.value.problems] == [
+        ("E-RANGE", "frame_index"),
+        ("E-REF", "bscope, cscope, layers, cscope_layers, labels"),
+    ]
+    assert grass.render(0, **nothing, layers=True).layers is not None
+
+
 def test_a_number_that_is_too_large_is_told_the_range_of_its_field(grass):
     with pytest.raises(fanbeam.InputError, match=f"threads = {2**70}: expected 0 to 1024$"):
         fanbeam.Scene.open("flat-grass", threads=2**70)

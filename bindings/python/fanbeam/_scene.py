@@ -440,8 +440,9 @@ class Scene:
     ) -> Frame:
         """What the radar sees from a Pose, or in a frame of the scene's flight.
 
-        Frames below 0 are counted from the end. What is not wanted is not computed; `cscope` is wanted
-        unless the scene was opened without. `frame_index` keys what is random: that of the flight, or 0,
+        Frames below 0 are counted from the end. What is not wanted is not computed, but for the B-scope's
+        powers, which every frame is made with: `bscope=False` saves its picture alone. Something must be
+        wanted; `cscope` is unless the scene was opened without. `frame_index` keys what is random: that of the flight, or 0,
         unless given. A pose the scene's plan was not made for takes tens of milliseconds more and has the
         event "outside_volume".
         """
