@@ -288,6 +288,12 @@ core::ProblemList Session::problems_in(const SensorSettings& settings) const {
   return problems;
 }
 
+core::ProblemList Session::problems_in(std::span<const TargetState> targets) const {
+  core::ProblemList problems;
+  placed_targets(*inside_->opened, targets, problems);
+  return problems;
+}
+
 core::ProblemList Session::set(std::span<const TargetState> targets) {
   return change([&](Asked& asked) {
     asked.conditions.targets = placed_targets(*inside_->opened, targets, asked.problems);

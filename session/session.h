@@ -77,6 +77,8 @@ class Session {
   core::ProblemList problems_in(const SensorSettings& settings) const;
   // The scene's own targets are where it says but for those named; new ones stay until the next call.
   core::ProblemList set(std::span<const TargetState> targets);
+  // What is wrong with each and with their names together; sets nothing.
+  core::ProblemList problems_in(std::span<const TargetState> targets) const;
   // An accuracy is for effects left out as well, and stays for them until the next one.
   core::ProblemList set(const SamplingWish& wish);
 

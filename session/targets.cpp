@@ -60,10 +60,11 @@ std::vector<PointTarget> placed_targets(const scenes::Scene& scene,
   std::vector<PointTarget> targets = scene.world.targets;
   const std::size_t own = targets.size();
   std::set<std::string> named;
-  if (states.size() > scenes::kMostPointTargets)
+  if (states.size() > scenes::kMostPointTargets) {
     problems.error(core::ErrorClass::limit, {}, "targets", std::to_string(states.size()),
                    "at most " + std::to_string(scenes::kMostPointTargets));
-  problems.throw_if_errors();
+    return targets;
+  }
   for (std::size_t i = 0; i < states.size(); ++i) {
     const TargetState& state = states[i];
     const std::string field = "target[" + std::to_string(i) + "]";
@@ -74,12 +75,12 @@ std::vector<PointTarget> placed_targets(const scenes::Scene& scene,
     if (!named.insert(state.name).second)
       problems.error(core::ErrorClass::ref, {}, field + ".name", "\"" + state.name + "\" again",
                      "every target once");
-    if (!is_good(state, field, problems)) continue;
+    const bool good = is_good(state, field, problems);
     bool found = false;
     for (std::size_t k = 0; k < own; ++k) {
       if (targets[k].name != state.name) continue;
       found = true;
-      place(scene, state, targets[k]);
+      if (good) place(scene, state, targets[k]);
     }
     if (found) continue;
     if (!state.rcs) {
@@ -92,6 +93,7 @@ std::vector<PointTarget> placed_targets(const scenes::Scene& scene,
                          core::names_there_text(state.name, known));
       continue;
     }
+    if (!good) continue;
     targets.push_back({state.name, *state.rcs, {}, kNorth});
     place(scene, state, targets.back());
   }

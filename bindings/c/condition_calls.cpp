@@ -45,9 +45,14 @@ void check_target(const fanbeam_target& target, const std::string& name, Argumen
     arguments.number(target.rcs_m2, name + ".rcs_m2", {0.0, 1.0e9}, "m2");
 }
 
-session::TargetState state_of(const fanbeam_target& target) {
+// Of one that is not `right`, which is told of it, the name and what nothing is wrong with.
+session::TargetState state_of(const fanbeam_target& target, bool right) {
   session::TargetState state;
-  state.name = target.name;
+  state.name = bindings::text_of(target.name);
+  if (!right) {
+    if ((target.given & FANBEAM_RCS) != 0) state.rcs = materials::ConstantRcs{0.0};
+    return state;
+  }
   state.position = {target.latitude_rad, target.longitude_rad, target.height_m};
   if ((target.given & FANBEAM_ATTITUDE) != 0)
     state.q_NB = core::quaternion_from({target.roll_rad, target.pitch_rad, target.heading_rad});
@@ -83,18 +88,37 @@ std::size_t merge(session::TargetState state, std::vector<session::TargetState>&
   return static_cast<std::size_t>(before - states.begin());
 }
 
-// The caller holds handle.changing. Of the targets one is given by the caller, or all are: what the
-// session calls `theirs`, "target[2]", is the caller's `ours`.
-void put(fanbeam_session& handle, std::vector<session::TargetState> states,
+// What the session calls `theirs`, "target[2]", is the caller's `ours`.
+std::vector<core::Problem> in_words_of_caller(std::vector<core::Problem> problems,
+                                              const std::string& theirs, const std::string& ours) {
+  for (core::Problem& problem : problems)
+    if (problem.field.starts_with(theirs)) problem.field.replace(0, theirs.size(), ours);
+  return problems;
+}
+
+// Of a field that `arguments` tell of nothing more is said.
+void add_untold(const std::vector<core::Problem>& problems, Arguments& arguments) {
+  const std::vector<core::Problem> told = arguments.problems().all();
+  for (const core::Problem& problem : problems) {
+    if (std::none_of(told.begin(), told.end(),
+                     [&](const auto& before) { return before.field == problem.field; }))
+      arguments.problems().append({problem});
+  }
+}
+
+// The caller holds handle.changing. Of the targets one is given by the caller, or all are. What the
+// session refuses is told beside what `arguments` do.
+void put(fanbeam_session& handle, std::vector<session::TargetState> states, Arguments& arguments,
          const std::string& theirs, const std::string& ours) {
+  const std::span<const session::TargetState> all(states);
+  if (arguments.problems().has_errors())
+    add_untold(in_words_of_caller(handle.held.problems_in(all).all(), theirs, ours), arguments);
+  arguments.done();
   core::ProblemList warnings;
   try {
-    warnings = handle.held.set(std::span<const session::TargetState>(states));
+    warnings = handle.held.set(all);
   } catch (const core::InputError& error) {
-    std::vector<core::Problem> problems = error.problems();
-    for (core::Problem& problem : problems)
-      if (problem.field.starts_with(theirs)) problem.field.replace(0, theirs.size(), ours);
-    throw core::InputError(std::move(problems));
+    throw core::InputError(in_words_of_caller(error.problems(), theirs, ours));
   }
   handle.targets = std::move(states);
   bindings::tell_warnings(warnings);
@@ -128,13 +152,15 @@ fanbeam_status fanbeam_set_weather(fanbeam_session* session,
 fanbeam_status fanbeam_set_target(fanbeam_session* session, const fanbeam_target* target) noexcept {
   return bindings::guarded([&] {
     Arguments arguments;
-    arguments.there(session, "session", kOpened);
-    if (arguments.sized(target, "target")) check_target(*target, "target", arguments);
-    arguments.done();
+    const bool opened = arguments.there(session, "session", kOpened);
+    const bool sized = arguments.sized(target, "target");
+    if (sized) check_target(*target, "target", arguments);
+    if (!opened || !sized) arguments.done();
     const std::lock_guard<std::mutex> one(session->changing);
     std::vector<session::TargetState> states = session->targets;
-    const std::size_t index = merge(state_of(*target), states);
-    put(*session, std::move(states), "target[" + std::to_string(index) + "]", "target");
+    const bool right = !arguments.problems().has_errors();
+    const std::size_t index = merge(state_of(*target, right), states);
+    put(*session, std::move(states), arguments, "target[" + std::to_string(index) + "]", "target");
     return FANBEAM_OK;
   });
 }
@@ -155,14 +181,13 @@ fanbeam_status fanbeam_set_targets(fanbeam_session* session, const fanbeam_targe
       const std::string name = "targets[" + std::to_string(i) + "]";
       // Those behind one of another size lie elsewhere than this loop looks.
       if (!arguments.sized(targets + i, name)) break;
-      const std::size_t before = arguments.problems().all().size();
+      const std::size_t before = arguments.problems().errors();
       check_target(targets[i], name, arguments);
-      if (arguments.problems().all().size() == before) states.push_back(state_of(targets[i]));
+      states.push_back(state_of(targets[i], arguments.problems().errors() == before));
     }
-    arguments.done();
     const std::lock_guard<std::mutex> one(session->changing);
     complete(states, session->targets);
-    put(*session, std::move(states), "target[", "targets[");
+    put(*session, std::move(states), arguments, "target[", "targets[");
     return FANBEAM_OK;
   });
 }

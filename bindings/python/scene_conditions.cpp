@@ -20,7 +20,19 @@
 namespace fanbeam::bindings {
 namespace {
 
-// Of three angles in degrees, None for none; what is wrong goes to `problems`, below `field`.
+// None for None, and for a number outside `range`, which goes to `problems`.
+std::optional<double> within(const py::handle& told, const std::string& field,
+                             core::ProblemList& problems, const core::NumberRange& range,
+                             const char* unit) {
+  if (told.is_none()) return std::nullopt;
+  core::ProblemList own;
+  const auto number = number_of<double>(told, field, own, range, unit);
+  problems.append(own.all());
+  return own.has_errors() ? std::nullopt : std::optional(number);
+}
+
+// Of three angles in degrees, None for none, and where one is wrong: that goes to `problems`, below
+// `field`.
 std::optional<glm::dquat> attitude_of(const py::handle& told, const std::string& field,
                                       core::ProblemList& problems) {
   if (told.is_none()) return std::nullopt;
@@ -31,13 +43,15 @@ std::optional<glm::dquat> attitude_of(const py::handle& told, const std::string&
     refuse_type(field + ".attitude_deg", "roll, pitch and heading", told);
   const auto angles = py::reinterpret_borrow<py::sequence>(told);
   std::array<double, 3> angles_rad{};
+  core::ProblemList own;
   for (std::size_t i = 0; i < kAngles.size(); ++i)
-    angles_rad[i] =
-        core::radians(number_of<double>(angles[i], field + kAngles[i], problems, {}, "deg"));
+    angles_rad[i] = core::radians(number_of<double>(angles[i], field + kAngles[i], own, {}, "deg"));
+  problems.append(own.all());
+  if (own.has_errors()) return std::nullopt;
   return core::quaternion_from({angles_rad[0], angles_rad[1], angles_rad[2]});
 }
 
-// What is wrong goes to `problems`, below `field`.
+// What is wrong goes to `problems`, below `field`; nothing is wrong with what stands in for it.
 session::TargetState target_of(const py::handle& target, const std::string& field,
                                core::ProblemList& problems) {
   session::TargetState state;
@@ -47,11 +61,13 @@ session::TargetState target_of(const py::handle& target, const std::string& fiel
   state.name = value_of<std::string>(target.attr("name"), field + ".name", problems);
   state.position = {core::radians(number("latitude_deg")), core::radians(number("longitude_deg")),
                     number("height_m")};
+  const std::size_t errors = problems.errors();
   collect(problems, [&] { terrain::check_geodetic(state.position, field.c_str()); });
+  if (problems.errors() > errors) state.position = {};
   state.q_NB = attitude_of(target.attr("attitude_deg"), field, problems);
   if (const py::object rcs_m2 = target.attr("rcs_m2"); !rcs_m2.is_none())
     state.rcs = materials::ConstantRcs{
-        number_of<double>(rcs_m2, field + ".rcs_m2", problems, {0.0, 1.0e9}, "m2")};
+        within(rcs_m2, field + ".rcs_m2", problems, {0.0, 1.0e9}, "m2").value_or(0.0)};
   return state;
 }
 
@@ -64,8 +80,10 @@ py::list set_targets(const Scene& scene, const py::sequence& targets) {
     if (!py::isinstance(target, type)) refuse_type(field, "a fanbeam.Target", target);
     states.push_back(target_of(target, field, problems));
   }
+  const std::span<const session::TargetState> all(states);
+  if (problems.has_errors()) problems.append(scene.session().problems_in(all).all());
   problems.throw_if_errors();
-  return problems_list(scene.session().set(std::span<const session::TargetState>(states)).all());
+  return problems_list(scene.session().set(all).all());
 }
 
 py::list set_weather(const Scene& scene, const py::dict& changes) {
@@ -88,18 +106,21 @@ py::list set_sensor(const Scene& scene, const py::handle& tilt_deg, const py::ha
                     const py::handle& low_dB, const py::handle& high_dB,
                     const py::handle& cscope_mode, const py::handle& noise_figure_dB) {
   core::ProblemList problems;
-  const auto within = [&](const py::handle& told, const char* name, const core::NumberRange& range,
-                          const char* unit) {
-    if (told.is_none()) return std::optional<double>();
-    return std::optional(number_of<double>(told, name, problems, range, unit));
-  };
   session::SensorSettings settings;
-  if (const auto tilt = within(tilt_deg, "tilt_deg", {-90.0, 90.0}, "deg"))
+  if (const auto tilt = within(tilt_deg, "tilt_deg", problems, {-90.0, 90.0}, "deg"))
     settings.boresight_elevation_rad = core::radians(*tilt);
   settings.stabilised = optional_of<bool>(stabilised, "stabilised", problems);
-  settings.low_dB = within(low_dB, "low_dB", session::SensorSettings::kLevels_dB, "dB");
-  settings.high_dB = within(high_dB, "high_dB", session::SensorSettings::kLevels_dB, "dB");
-  if (const auto figure_dB = within(noise_figure_dB, "noise_figure_dB", {0.0, 60.0}, "dB"))
+  const std::size_t errors = problems.errors();
+  settings.low_dB = within(low_dB, "low_dB", problems, session::SensorSettings::kLevels_dB, "dB");
+  settings.high_dB =
+      within(high_dB, "high_dB", problems, session::SensorSettings::kLevels_dB, "dB");
+  // Nothing is said of a window that one of them alone stands for.
+  if (problems.errors() > errors) {
+    settings.low_dB = 0.0;
+    settings.high_dB = 1.0;
+  }
+  if (const auto figure_dB =
+          within(noise_figure_dB, "noise_figure_dB", problems, {0.0, 60.0}, "dB"))
     settings.noise_figure = std::pow(10.0, *figure_dB / 10.0);
   if (const auto word = optional_of<std::string>(cscope_mode, "cscope_mode", problems)) {
     const auto& modes = sensors::Display::kCScopeModes;
@@ -107,8 +128,10 @@ py::list set_sensor(const Scene& scene, const py::handle& tilt_deg, const py::ha
     if (mode == modes.end())
       problems.error(core::ErrorClass::ref, {}, "cscope_mode", "\"" + *word + "\"",
                      "true_elevation, flat_earth or shadow");
-    settings.cscope_mode = static_cast<sensors::Display::CScopeMode>(mode - modes.begin());
+    else
+      settings.cscope_mode = static_cast<sensors::Display::CScopeMode>(mode - modes.begin());
   }
+  if (problems.has_errors()) problems.append(scene.session().problems_in(settings).all());
   problems.throw_if_errors();
   return problems_list(scene.session().set(settings).all());
 }

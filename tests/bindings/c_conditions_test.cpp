@@ -131,6 +131,18 @@ TEST_CASE("Targets set through C add up one by one, and go back together", "[bin
   const fanbeam_target two[] = {mast, nobody};
   CHECK(fanbeam_set_targets(c.get(), two, 2) == FANBEAM_BAD_INPUT);
   CHECK(told("E-REF targets[1].name"));
+  fanbeam_target beyond[] = {nobody, target_called(""), nobody};
+  beyond[0].height_m = std::nan("");
+  CHECK(fanbeam_set_targets(c.get(), beyond, 3) == FANBEAM_BAD_INPUT);
+  INFO(fanbeam_last_error());
+  CHECK(tests::problems_told() == 5);
+  for (const char* problem :
+       {"E-NONFINITE targets[0].height_m", "E-REF targets[0].name", "E-REF targets[1].name",
+        "E-REF targets[2].name = \"nobody\" again", "E-REF targets[2].name = \"nobody\": "})
+    CHECK(told(problem));
+  CHECK(fanbeam_set_target(c.get(), beyond) == FANBEAM_BAD_INPUT);
+  CHECK(tests::problems_told() == 2);
+  CHECK(told("E-REF target.name"));
   nobody.name = "\xff";
   nobody.given = FANBEAM_RCS;
   CHECK(set(nobody) == FANBEAM_BAD_INPUT);
