@@ -1,5 +1,6 @@
 """Scenes, conditions and frames, held against the program's own files and closed forms."""
 
+import copy
 import os
 import pickle
 import shutil
@@ -222,6 +223,15 @@ def test_lookups(root):
     assert fanbeam.Atmosphere(35e9, rain_rate_mm_per_h=10.0).one_way_dB_per_km(0.0)["rain"] == pytest.approx(
         0.3374 * 10**0.9047, rel=1e-3
     )
+
+
+def test_the_air_pickles_and_is_copied():
+    rate_mm_per_h = np.array(10.0)
+    air = fanbeam.Atmosphere(94e9, rain_rate_mm_per_h=rate_mm_per_h, humidity=0.4)
+    rate_mm_per_h[...] = 300.0
+    for same in (pickle.loads(pickle.dumps(air)), copy.deepcopy(air), copy.copy(air)):
+        assert same.one_way_dB_per_km(100.0) == air.one_way_dB_per_km(100.0)
+        assert same.one_way_dB(300.0, 0.0, 4000.0) == air.one_way_dB(300.0, 0.0, 4000.0)
 
 
 def test_a_scene_of_bscopes_alone_is_planned_for_them():

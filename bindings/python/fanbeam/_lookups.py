@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import os
 from typing import Any, NamedTuple
 
@@ -70,11 +71,19 @@ class Atmosphere:
     """Loss along straight paths through layered air: gases (ITU-R P.676), fog (P.840), rain (P.838), snow.
 
     Weather as in Scene.set_weather; without any, a standard day. Heights are above the ground that the
-    weather is told for, -2000 to 12000 m: that far the air is known. Losses are one way.
+    weather is told for, -2000 to 12000 m: that far the air is known. Losses are one way. It pickles.
     """
 
     def __init__(self, frequency_Hz: float = 35e9, **weather: float | bool | None):
         self._air = _core.Air(weather, frequency_Hz)
+        self._told = copy.deepcopy((frequency_Hz, weather))  # what passed can be copied
+
+    def __getstate__(self) -> tuple[float, dict[str, float | bool | None]]:
+        return self._told
+
+    def __setstate__(self, told: tuple[float, dict[str, float | bool | None]]) -> None:
+        frequency_Hz, weather = told
+        self.__init__(frequency_Hz, **weather)  # type: ignore[misc]
 
     def one_way_dB_per_km(self, height_m: float = 0.0) -> dict[str, float]:
         """Specific attenuation at a height by cause: "gas", "fog", "rain", "snow"."""
