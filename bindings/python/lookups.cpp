@@ -8,12 +8,16 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "atmosphere/path_attenuation.h"
 #include "bindings/python/convert.h"
+#include "bindings/python/interruptible.h"
 #include "bindings/python/weather_fields.h"
 #include "core/number_range.h"
+#include "core/stop.h"
 #include "materials/library/material_library.h"
 #include "session/shipped.h"
 
@@ -52,18 +56,58 @@ py::list materials_of(const py::handle& file) {
   return rows;
 }
 
+// work(i) of every value until one gives false. Of many without Python's lock, and until Ctrl-C.
+template <class Work>
+void for_all(py::ssize_t count, const Work& work) {
+  constexpr py::ssize_t kFew = 10000;  // in less time than a thread takes to start
+  const auto part = [&](py::ssize_t begin, py::ssize_t end) {
+    for (py::ssize_t i = begin; i < end; ++i)
+      if (!work(i)) return false;
+    return true;
+  };
+  if (count <= kFew) {
+    part(0, count);
+    return;
+  }
+  without_lock([&](const core::StopToken& stop) {
+    const core::StopScope scope(stop);
+    for (py::ssize_t begin = 0; begin < count; begin += kFew) {
+      core::throw_if_stopped();
+      if (!part(begin, std::min(begin + kFew, count))) return;
+    }
+  });
+}
+
+// "[3, 17]", as Python finds the value; "" of a number by itself.
+std::string place_in(const std::vector<py::ssize_t>& shape, py::ssize_t flat) {
+  std::string place;
+  for (auto size = shape.rbegin(); size != shape.rend(); ++size) {
+    place = std::to_string(flat % *size) + (place.empty() ? "" : ", ") + place;
+    flat /= *size;
+  }
+  return place.empty() ? "" : "[" + place + "]";
+}
+
+std::vector<py::ssize_t> shape_of(const Angles& angles_rad) {
+  return {angles_rad.shape(), angles_rad.shape() + angles_rad.ndim()};
+}
+
 Angles angles_of(const py::handle& told, core::ProblemList& problems) {
-  // Texts and None would be read as numbers.
-  constexpr std::string_view kNumbers = "biuf";
+  // Truths, texts and None would be read as numbers.
+  constexpr std::string_view kNumbers = "iuf";
   const py::array given = py::array::ensure(told);
   const bool numbers = given && kNumbers.find(given.dtype().kind()) != std::string_view::npos;
   const Angles angles_rad = numbers ? Angles::ensure(given) : Angles();
   if (!numbers || !angles_rad) refuse_type("grazing_rad", "a number or an array of numbers", told);
-  for (py::ssize_t i = 0; i < angles_rad.size(); ++i) {
-    const double angle_rad = angles_rad.data()[i];
-    if (!core::NumberRange{0.0, core::kPi / 2 + kRounding_rad}.holds(angle_rad))
-      core::check_range(problems, "grazing_rad", angle_rad, {0.0, core::kPi / 2}, "rad");
-  }
+  const double* const values_rad = angles_rad.data();
+  const std::vector<py::ssize_t> shape = shape_of(angles_rad);
+  for_all(angles_rad.size(), [&](py::ssize_t i) {
+    if (core::NumberRange{0.0, core::kPi / 2 + kRounding_rad}.holds(values_rad[i])) return true;
+    const bool others = !problems.is_full();  // of the first that is not, that there are more
+    core::check_range(problems, "grazing_rad" + place_in(shape, i), values_rad[i],
+                      {0.0, core::kPi / 2}, "rad");
+    return others;
+  });
   return angles_rad;
 }
 
@@ -95,11 +139,13 @@ py::array_t<double> nrcs(const py::handle& file, const py::handle& name,
   for (const py::handle warning : problems_list(problems.all())) warnings.append(warning);
   const materials::NrcsCurve curve((*library)[library->in_state(*found, surface)].model, seen,
                                    frequency);
-  py::array_t<double> result(
-      std::vector<py::ssize_t>(angles_rad.shape(), angles_rad.shape() + angles_rad.ndim()));
-  for (py::ssize_t i = 0; i < angles_rad.size(); ++i)
-    result.mutable_data()[i] =
-        curve.sigma0(std::sin(std::min(angles_rad.data()[i], core::kPi / 2)));
+  py::array_t<double> result(shape_of(angles_rad));
+  const double* const from_rad = angles_rad.data();
+  double* const to = result.mutable_data();
+  for_all(angles_rad.size(), [&](py::ssize_t i) {
+    to[i] = curve.sigma0(std::sin(std::min(from_rad[i], core::kPi / 2)));
+    return true;
+  });
   return result;
 }
 

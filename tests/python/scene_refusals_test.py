@@ -134,6 +134,19 @@ def test_a_frequency_that_no_model_takes_is_told_by_its_argument():
         fanbeam.nrcs("short_grass", 0.1, frequency_Hz=35)
 
 
+def test_angles_out_of_range_are_told_by_their_index():
+    angles = np.full((3, 5), 0.1)
+    angles[1, 4], angles[2, 0] = np.nan, 2.0
+    for told, fields in ((angles, ["grazing_rad[1, 4]", "grazing_rad[2, 0]"]), ([0.1, -0.1], ["grazing_rad[1]"])):
+        with pytest.raises(fanbeam.InputError) as refused:
+            fanbeam.nrcs("short_grass", told)
+        assert [problem.field for problem in refused.value.problems] == fields
+    with pytest.raises(fanbeam.InputError) as refused:
+        fanbeam.nrcs("short_grass", np.full(10**6, np.nan))
+    assert [problem.field for problem in refused.value.problems[:2]] == ["grazing_rad[0]", "grazing_rad[1]"]
+    assert refused.value.problems[-1].code == "W-MORE"
+
+
 def test_a_library_that_is_none_is_told_beside_what_else_is_wrong(tmp_path):
     with pytest.raises(fanbeam.InputError) as told:
         fanbeam.nrcs("short_grass", 2.0, state="moist", library=tmp_path / "none.toml")
@@ -202,6 +215,8 @@ def test_what_is_out_of_range_is_an_input_error(grass, field, call):
         ("grazing_rad", lambda scene: fanbeam.nrcs("short_grass", "0.1")),
         ("grazing_rad", lambda scene: fanbeam.nrcs("short_grass", [0.1, None])),
         ("grazing_rad", lambda scene: fanbeam.nrcs("short_grass", 0.1j)),
+        ("grazing_rad", lambda scene: fanbeam.nrcs("short_grass", True)),
+        ("grazing_rad", lambda scene: fanbeam.nrcs("short_grass", np.ma.array([0.1, 0.2], mask=[False, True]))),
         ("polarisation", lambda scene: fanbeam.nrcs("short_grass", 0.1, polarisation=None)),
         ("extrapolate", lambda scene: fanbeam.nrcs("short_grass", 0.1, extrapolate="yes")),
         ("frequency_Hz", lambda scene: fanbeam.Atmosphere("35e9")),

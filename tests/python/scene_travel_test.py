@@ -143,6 +143,25 @@ def test_pythons_lock_is_free_while_a_frame_is_made(runway):
     assert len(ticks) > max(30, 100 * seconds)
 
 
+def test_pythons_lock_is_free_while_many_angles_are_looked_up():
+    angles, ticks, done = np.full(10**7, 0.1), [], threading.Event()
+
+    def tick():
+        while not done.wait(0.001):
+            ticks.append(time.monotonic())
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    begin = time.monotonic()
+    fanbeam.nrcs("short_grass", angles)
+    end = time.monotonic()
+    done.set()
+    thread.join()
+    # Held, the other thread would tick at either end.
+    middle = [at for at in ticks if begin + 0.2 * (end - begin) < at < end - 0.2 * (end - begin)]
+    assert len(middle) > 3
+
+
 def worker_bytes(scene):
     return scene.render(0).bscope_W.tobytes()
 

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fanbeam import _core, _paths
-from fanbeam._errors import warn
+from fanbeam._errors import refuse_type, warn
 
 
 def scenes() -> list[str]:
@@ -57,8 +57,10 @@ def nrcs(
     Angles up to 1e-6 above pi/2, as single precision has them, count as pi/2.
     `polarisation` is "HH" or "VV", `state` what the weather left: "dry", "wet", "dry-snow" or
     "wet-snow". A frequency or polarisation that the material's model is not known for is refused
-    unless `extrapolate`. The shape is that of `grazing_rad`.
+    unless `extrapolate`. The shape is that of `grazing_rad`, which has no mask.
     """
+    if isinstance(grazing_rad, np.ma.MaskedArray):  # what the mask hides would be looked up, or refused
+        refuse_type("grazing_rad", "a number or an array of numbers without a mask", grazing_rad)
     told: list[Any] = []
     values = _core.nrcs(
         _library(library), material, grazing_rad, frequency_Hz, polarisation, state, extrapolate, told
