@@ -74,12 +74,6 @@ Material read_material(ConfigTable& table, const std::string& name,
   return material;
 }
 
-std::size_t error_count(const core::ProblemList& problems) {
-  std::size_t count = 0;
-  for (const core::Problem& problem : problems.all()) count += problem.is_error() ? 1 : 0;
-  return count;
-}
-
 }  // namespace
 
 MaterialLibrary MaterialLibrary::from_file(const std::filesystem::path& file,
@@ -105,12 +99,12 @@ MaterialLibrary MaterialLibrary::from_table(ConfigTable root, core::ProblemList&
     return library;
   }
   for (const std::string& name : names) {
-    const std::size_t errors_before = error_count(problems);
+    const std::size_t errors_before = problems.errors();
     ConfigTable table = root.table(name);
     if (!table.present()) continue;
     Material material = read_material(table, name, names);
     material.place = root.place(name);
-    if (error_count(problems) == errors_before) library.materials_.push_back(std::move(material));
+    if (problems.errors() == errors_before) library.materials_.push_back(std::move(material));
   }
   root.report_unknown_keys();
   return library;

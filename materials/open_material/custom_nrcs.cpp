@@ -99,12 +99,6 @@ CustomNrcs read_entry(const core::JsonNode& node) {
   return entry;
 }
 
-std::size_t error_count(const core::ProblemList& problems) {
-  const auto& all = problems.all();
-  return static_cast<std::size_t>(std::count_if(
-      all.begin(), all.end(), [](const auto& problem) { return problem.is_error(); }));
-}
-
 }  // namespace
 
 std::vector<CustomNrcs> read_custom_nrcs(const core::JsonNode& custom_properties) {
@@ -116,14 +110,14 @@ std::vector<CustomNrcs> read_custom_nrcs(const core::JsonNode& custom_properties
   const std::size_t count = single ? 1 : nrcs.size(kMostEntries);
   for (std::size_t i = 0; i < count; ++i) {
     const core::JsonNode node = single ? nrcs : nrcs.element(i);
-    const std::size_t before = error_count(node.problems());
+    const std::size_t before = node.problems().errors();
     if (!node.present() || !node.is_object()) {
       node.problems().error(ErrorClass::parse, node.place(), node.pointer(), "another value",
                             "an object");
       continue;
     }
     CustomNrcs entry = read_entry(node);
-    if (error_count(node.problems()) == before) entries.push_back(std::move(entry));
+    if (node.problems().errors() == before) entries.push_back(std::move(entry));
   }
   return entries;
 }

@@ -64,12 +64,6 @@ TypicalObject read_object(ConfigTable& table, const std::string& name) {
   return object;
 }
 
-std::size_t error_count(const core::ProblemList& problems) {
-  std::size_t count = 0;
-  for (const core::Problem& problem : problems.all()) count += problem.is_error() ? 1 : 0;
-  return count;
-}
-
 }  // namespace
 
 RcsModel TypicalObject::rcs() const {
@@ -95,12 +89,12 @@ ObjectLibrary ObjectLibrary::from_table(ConfigTable root, core::ProblemList& pro
     problems.error(ErrorClass::parse, root.place(""), "objects", "none",
                    "at least one table, such as [person]");
   for (const std::string& name : names) {
-    const std::size_t errors_before = error_count(problems);
+    const std::size_t errors_before = problems.errors();
     ConfigTable table = root.table(name);
     if (!table.present()) continue;
     TypicalObject object = read_object(table, name);
     object.place = root.place(name);
-    if (error_count(problems) == errors_before) library.objects_.push_back(std::move(object));
+    if (problems.errors() == errors_before) library.objects_.push_back(std::move(object));
   }
   root.report_unknown_keys();
   return library;

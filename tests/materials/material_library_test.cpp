@@ -66,6 +66,17 @@ TEST_CASE("M07 bad coefficients are refused by class, with file and line", "[mat
   require_problem(problems_of(material_text("\"dark\"", "0", "1")), "E-PARSE", 2, "test_grass.a");
 }
 
+TEST_CASE("M07 no bad material enters the library behind more problems than are listed",
+          "[materials][M07]") {
+  std::string text;
+  for (std::size_t i = 0; i <= ProblemList::kMost; ++i) {
+    std::string material = material_text("-1", "0", "1");
+    text += material.replace(1, 10, "grass_" + std::to_string(i));
+  }
+  const ProblemList problems = problems_of(text);  // a library of none
+  CHECK(problems.errors() == ProblemList::kMost + 1);
+}
+
 TEST_CASE("M07 a temperature that the medium's model does not know is refused at its line",
           "[materials][M07]") {
   const auto rough = [](const std::string& medium, const std::string& temperature) {

@@ -208,6 +208,20 @@ peak_dBsm = 3.0
   CHECK(empty.has_errors());
 }
 
+TEST_CASE("No bad object enters the library behind more problems than are listed",
+          "[materials][objects]") {
+  std::string text;
+  for (std::size_t i = 0; i <= core::ProblemList::kMost; ++i)
+    text += "[object_" + std::to_string(i) +
+            "]\nrcs_dBsm = 500\nspread_dB = 1\nfluctuation = 0\n"
+            "frequency_range_GHz = [30, 40]\nsize_m = [1, 1, 1]\nconfidence = \"assumed\"\n"
+            "source = \"a test\"\n";
+  core::ProblemList problems;
+  const ObjectLibrary library = ObjectLibrary::from_text(text, "objects.toml", problems);
+  CHECK(problems.errors() == core::ProblemList::kMost + 1);
+  CHECK(library.all().empty());
+}
+
 TEST_CASE("Objects used far from where they are known are told about", "[materials][objects]") {
   const ObjectLibrary library = shipped_objects();
   core::ProblemList problems;
