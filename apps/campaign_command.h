@@ -19,7 +19,4 @@ struct CampaignOptions {
   int threads = 0, tasks = 1;
 };
 
-int campaign(const CampaignOptions& options, const CommonOptions& common);
-CLI::App& add_campaign_command(CLI::App& program, CampaignOptions& options);
-
 }  // namespace fanbeam::apps

@@ -1,7 +1,7 @@
 // The command line: the commands with what each takes and what it runs.
 //
-// A command is a struct of options and two functions, handed to CommandLine::add in main.cpp: one
-// declares the options to CLI11, the other runs with what was given. Help, man pages and shell
+// A command is a struct of options and two functions, which its add_x (apps/commands.h) hands to
+// CommandLine::add: one declares the options to CLI11, the other runs with what was given. Help, man pages and shell
 // completion follow from what was declared. An option that would do nothing beside the others given
 // is refused, with exit code 2.
 #pragma once

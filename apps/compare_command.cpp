@@ -1,12 +1,19 @@
-#include "apps/compare_command.h"
-
+// fanbeam compare: are two images, or two folders of images, the same within a tolerance?
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
+#include <optional>
 #include <set>
+#include <string>
 #include <system_error>
 #include <vector>
 
+#include "apps/command_line.h"
+#include "apps/commands.h"
+#include "apps/number_check.h"
+#include "apps/value_words.h"
 #include "core/image_compare.h"
 #include "core/text.h"
 #include "measure/image_files.h"
@@ -17,6 +24,53 @@ namespace fanbeam::apps {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct CompareOptions {
+  std::string a, b;
+  // Limits; one that is not given does not bind where another is. Without any an RMS of 0.
+  std::optional<double> rms;      // of all differences: grey levels, or dB for power layers
+  std::optional<double> largest;  // of a single one, same units; 0: none
+  std::optional<double> percent_different;
+  bool exact = false;
+  // A PNG file for two images; for two folders the folder of one map per pair that is not
+  // equal, within the tolerance or not, as heat_map_path names it. Empty: none.
+  std::string heat_map;
+};
+
+CLI::App& declare_compare(CLI::App& program, CompareOptions& options) {
+  CLI::App& command =
+      *program.add_subcommand("compare", "Compare two images or two folders of images");
+  command.add_option("A", options.a, "Image (PNG, EXR) or folder of images")
+      ->type_name(kFileValue)
+      ->required();
+  command.add_option("B", options.b, "Another of the same kind")->type_name(kFileValue)->required();
+  CLI::Option* rms =
+      command
+          .add_option("--rms", options.rms,
+                      "Largest RMS difference allowed: grey levels for PNG, dB for power layers "
+                      "(default: 0, but none beside another limit)")
+          ->check(number_from(0.0, 1000.0));
+  CLI::Option* largest =
+      command
+          .add_option("--largest", options.largest,
+                      "Largest single difference allowed, same units (0 or default: any)")
+          ->check(number_from(0.0, 1000.0));
+  CLI::Option* percent =
+      command
+          .add_option("--percent", options.percent_different,
+                      "Largest share of differing cells allowed, per cent (default: any)")
+          ->check(number_from(0.0, 100.0));
+  command.add_flag("--exact", options.exact, "Every value equal")
+      ->excludes(rms)
+      ->excludes(largest)
+      ->excludes(percent);
+  command
+      .add_option("--heat-map", options.heat_map,
+                  "Draw where they differ, B - A in grey levels or dB: a PNG file for two images; "
+                  "for two folders a folder of maps of the pairs that differ")
+      ->type_name(kFileValue);
+  return command;
+}
 
 // A layer's figures in the unit that it is judged in.
 struct Figures {
@@ -123,6 +177,13 @@ bool compare_files(const fs::path& a, const fs::path& b, const fs::path& map, bo
   return same;
 }
 
+// "bscope/00000.png" of a picture, "power/00000.exr.png" of an EXR.
+fs::path heat_map_path(const fs::path& folder, const fs::path& image) {
+  fs::path name = image;
+  if (name.extension() != ".png") name += ".png";
+  return folder / name;
+}
+
 // Where the map of two images goes.
 fs::path single_map(const CompareOptions& options) {
   const fs::path map = options.heat_map;
@@ -178,14 +239,11 @@ bool compare_folders(const fs::path& a, const fs::path& b, const CompareOptions&
   return same;
 }
 
-}  // namespace
-
-fs::path heat_map_path(const fs::path& folder, const fs::path& image) {
-  fs::path name = image;
-  if (name.extension() != ".png") name += ".png";
-  return folder / name;
-}
-
+// 0 when every pair is within the tolerance, 1 otherwise. The map of two images is always drawn; a
+// map that an earlier comparison of folders left for a pair that is equal now is drawn anew. Throws
+// InputError, beside what reading and writing throw (of folders after all other pairs are compared, with all of
+// them): E-REF for a file and a folder, E-RANGE for a map that is no PNG, E-PATH for maps on or among the images
+// compared.
 int compare(const CompareOptions& options, const CommonOptions& common) {
   const fs::path a = options.a;
   const fs::path b = options.b;
@@ -206,5 +264,9 @@ int compare(const CompareOptions& options, const CommonOptions& common) {
                             : compare_files(a, b, map, true, options, common.quiet);
   return same ? kExitDone : kExitCompareFailed;
 }
+
+}  // namespace
+
+void add_compare(CommandLine& line) { line.add(declare_compare, compare); }
 
 }  // namespace fanbeam::apps

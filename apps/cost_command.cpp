@@ -1,12 +1,17 @@
-#include "apps/cost_command.h"
-
+// fanbeam cost: what accuracy and effects cost in time on a scene, measured.
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <string>
+#include <vector>
 
+#include "apps/command_line.h"
+#include "apps/commands.h"
 #include "apps/cost_levels.h"
+#include "apps/number_check.h"
 #include "apps/progress.h"
-#include "apps/render_command.h"
+#include "apps/scene_choice.h"
 #include "core/files.h"
 #include "core/parallel.h"
 #include "measure/clock.h"
@@ -18,6 +23,49 @@ namespace fanbeam::apps {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct CostOptions : SceneChoice {
+  std::string output;  // default out/<scene name>-cost
+  std::string frames;  // as RenderOptions::frames; empty: two, spread over the trajectory
+  std::vector<std::string> parts = {"ladder", "effects", "numerics", "levels"};
+  std::string caster;   // of the effects' frames; empty: the scene's
+  int repetitions = 0;  // 0: 20, or 3 with `quick`
+  int threads = 0;
+  bool quick = false;
+};
+
+CLI::App& declare_cost(CLI::App& program, CostOptions& options) {
+  CLI::App& command = *program.add_subcommand(
+      "cost", "Measure what accuracy and effects cost in time: CSV, plots and a page of tables");
+  command.footer(
+      "Takes minutes: converged pictures come first, 10 s to well over a minute each on two "
+      "cores, longest over a city. Leave the machine alone meanwhile.");
+  add_scene_choice(command, options);
+  add_output_option(command, options.output, "Folder to write to (default out/<scene name>-cost)");
+  add_frames_option(command, options.frames,
+                    std::string(kFramesText) +
+                        " (default: two, at a quarter and at three quarters of the approach)");
+  command
+      .add_option(
+          "--parts", options.parts,
+          "What to measure: ladder (error against time of every way of sampling), effects "
+          "(each left out or forced on), numerics (range in float or double, robust flag, "
+          "sub-columns of the beam), levels (the B-scope from powers and from beat signals)")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"ladder", "effects", "numerics", "levels"}))
+      ->capture_default_str();
+  command
+      .add_option("--repetitions", options.repetitions,
+                  "Repetitions of every timing after a warm-up (default 20, or 3 with --quick)")
+      ->check(whole_number_from(1, 10000));
+  command.add_flag("--quick", options.quick,
+                   "A short look: fewer steps and repetitions, a coarse reference");
+  add_caster_option(command, options.caster,
+                    "Way to sample the frames in which effects are measured (default: the scene's, "
+                    "else auto)");
+  add_threads_option(command, options.threads);
+  return command;
+}
 
 // One of each half, so that neither is the first or the last.
 std::vector<int> frames_of(const CostOptions& options, int count) {
@@ -62,8 +110,7 @@ measure::Effort effort_of(const CostOptions& options) {
   return effort;
 }
 
-}  // namespace
-
+// Writes ladder.csv, equal_error.csv, effects.csv, numerics.csv, levels.csv, plots as SVG and PNG, and cost.md.
 int cost(const CostOptions& options, const CommonOptions& common) {
   const core::ThreadLimit threads(options.threads);
   core::ProblemList problems;
@@ -110,5 +157,9 @@ int cost(const CostOptions& options, const CommonOptions& common) {
              fs::absolute(folder / "cost.md").lexically_normal().string());
   return kExitDone;
 }
+
+}  // namespace
+
+void add_cost(CommandLine& line) { line.add(declare_cost, cost); }
 
 }  // namespace fanbeam::apps

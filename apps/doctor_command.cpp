@@ -1,13 +1,18 @@
-#include "apps/doctor_command.h"
-
+// fanbeam doctor: what makes a scene numerically delicate, and what to do about it.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 
+#include "apps/command_line.h"
+#include "apps/commands.h"
+#include "apps/scene_choice.h"
 #include "apps/text_table.h"
+#include "apps/value_words.h"
 #include "core/files.h"
 #include "core/text.h"
 #include "core/units.h"
@@ -16,6 +21,7 @@
 #include "renderer/plan/plan.h"
 #include "scenes/doctor/approach.h"
 #include "scenes/doctor/scene_doctor.h"
+#include "scenes/scene.h"
 #include "session/blank_pictures.h"
 #include "session/frame_choice.h"
 #include "session/session.h"
@@ -27,6 +33,28 @@ namespace {
 using scenes::Finding;
 using scenes::Findings;
 using scenes::Severity;
+
+struct DoctorOptions : SceneChoice {
+  std::string json;            // file to write as well; empty for none
+  double accuracy_grey = 0.0;  // 0: the scene's, else the default
+  bool measure = false;        // refine frames to see whether the accuracy can be reached
+};
+
+CLI::App& declare_doctor(CLI::App& program, DoctorOptions& options) {
+  CLI::App& command = *program.add_subcommand(
+      "doctor", "Tell what makes a scene numerically delicate, why it matters and what to do");
+  add_scene_choice(command, options);
+  command.add_option("--json", options.json, "Write the findings to this file as well")
+      ->type_name(kFileValue);
+  add_accuracy_option(
+      command, options.accuracy_grey,
+      "Grey levels that will be asked for: is that possible? (default: the scene's, else " +
+          core::number_text(scenes::kDefaultAccuracy_grey) + ")");
+  command.add_flag("--measure", options.measure,
+                   "Refine three frames to the accuracy as well and tell where it is not reached; "
+                   "takes up to minutes");
+  return command;
+}
 
 constexpr std::size_t kFramesMeasured = 3;
 
@@ -135,8 +163,8 @@ void add_unreached(const scenes::Scene& scene, Findings& findings) {
        "Ask for less, or look for what is thinner than a ray."});
 }
 
-}  // namespace
-
+// Writes the findings as a table to standard output. kExitDone when none is worse than delicate, else
+// kExitCompareFailed.
 int examine_scene(const DoctorOptions& options, const CommonOptions& common) {
   core::ProblemList problems;
   const scenes::SceneDescription description = read_chosen_scene(options, problems);
@@ -163,5 +191,9 @@ int examine_scene(const DoctorOptions& options, const CommonOptions& common) {
              count(Severity::note));
   return wrong > 0 ? kExitCompareFailed : kExitDone;
 }
+
+}  // namespace
+
+void add_doctor(CommandLine& line) { line.add(declare_doctor, examine_scene); }
 
 }  // namespace fanbeam::apps

@@ -6,6 +6,8 @@
 #include <optional>
 #include <set>
 
+#include "apps/command_line.h"
+#include "apps/commands.h"
 #include "apps/option_lists.h"
 #include "apps/progress.h"
 #include "apps/stop_on_signals.h"
@@ -68,8 +70,8 @@ void print_summary(const session::FmcwSequence& sequence) {
                std::filesystem::absolute(place.path).lexically_normal().string());
 }
 
-}  // namespace
-
+// Stopped by signals as render is. A radar file that the scene names goes into the options, below those that were
+// given.
 int fmcw(FmcwOptions& options, const CommonOptions& common) {
   const core::ThreadLimit threads(options.threads);
   core::ProblemList problems;
@@ -98,5 +100,9 @@ int fmcw(FmcwOptions& options, const CommonOptions& common) {
   }
   return kExitDone;
 }
+
+}  // namespace
+
+void add_fmcw(CommandLine& line) { line.add(declare_fmcw, fmcw); }
 
 }  // namespace fanbeam::apps

@@ -27,9 +27,6 @@ struct FmcwOptions : SceneChoice, session::FmcwSettings {
   int threads = 0;
 };
 
-// Returns an exit code; throws InputError for bad input. Stopped by signals as render is.
-// A radar file that the scene names goes into the options, below those that were given.
-int fmcw(FmcwOptions& options, const CommonOptions& common);
-CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options);
+CLI::App& declare_fmcw(CLI::App& program, FmcwOptions& options);
 
 }  // namespace fanbeam::apps

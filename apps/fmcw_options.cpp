@@ -218,7 +218,7 @@ std::vector<const CLI::Option*> declared_by(CLI::App& command, const Add& add) {
 
 }  // namespace
 
-CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options) {
+CLI::App& declare_fmcw(CLI::App& program, FmcwOptions& options) {
   CLI::App& command = *program.add_subcommand(
       "fmcw",
       "A scene at signal level: beat signals, maps of range, speed and azimuth, detections");

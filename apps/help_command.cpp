@@ -1,11 +1,13 @@
-#include "apps/help_command.h"
-
+// fanbeam help: what there is, how a command is used, man pages and shell completion.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "apps/command_line.h"
+#include "apps/commands.h"
 #include "apps/help/bash_completion.h"
 #include "apps/help/help_formatter.h"
 #include "apps/help/man_page.h"
@@ -16,13 +18,36 @@
 namespace fanbeam::apps {
 namespace {
 
+struct HelpOptions {
+  std::vector<std::string> command;  // "materials", "plot"; empty: all of them
+  std::string man_pages;             // folder to write them to
+  bool bash_completion = false;
+};
+
+CLI::App& declare_help(CLI::App& program, HelpOptions& options) {
+  CLI::App& command = *program.add_subcommand(
+      "help", "Tell what there is, or how a command is used, with examples");
+  CLI::Option* name =
+      command.add_option("COMMAND", options.command, "Such as render, or materials plot")
+          ->type_name(kCommandValue);
+  CLI::Option* completion =
+      command
+          .add_flag("--bash-completion", options.bash_completion,
+                    "Print a script for bash that completes commands, options and their values")
+          ->excludes(name);
+  command
+      .add_option("--man-pages", options.man_pages, "Write a manual page for each command there")
+      ->type_name(kFolderValue)
+      ->excludes(name)
+      ->excludes(completion);
+  return command;
+}
+
 const CLI::App* below(const CLI::App& parent, const std::string& name) {
   for (const CLI::App* command : commands_of(parent))
     if (command->get_name() == name) return command;
   return nullptr;
 }
-
-}  // namespace
 
 int help(const CLI::App& program, const HelpOptions& options) {
   if (!options.man_pages.empty()) {
@@ -49,23 +74,12 @@ int help(const CLI::App& program, const HelpOptions& options) {
   return kExitDone;
 }
 
-CLI::App& add_help_command(CLI::App& program, HelpOptions& options) {
-  CLI::App& command = *program.add_subcommand(
-      "help", "Tell what there is, or how a command is used, with examples");
-  CLI::Option* name =
-      command.add_option("COMMAND", options.command, "Such as render, or materials plot")
-          ->type_name(kCommandValue);
-  CLI::Option* completion =
-      command
-          .add_flag("--bash-completion", options.bash_completion,
-                    "Print a script for bash that completes commands, options and their values")
-          ->excludes(name);
-  command
-      .add_option("--man-pages", options.man_pages, "Write a manual page for each command there")
-      ->type_name(kFolderValue)
-      ->excludes(name)
-      ->excludes(completion);
-  return command;
+}  // namespace
+
+void add_help(CommandLine& line) {
+  line.add(declare_help, [&line](const HelpOptions& options, const CommonOptions&) {
+    return help(line.program(), options);
+  });
 }
 
 }  // namespace fanbeam::apps

@@ -1,10 +1,13 @@
-#include "apps/list_command.h"
-
+// fanbeam list: what there is to choose from.
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <string>
 
+#include "apps/command_line.h"
+#include "apps/commands.h"
 #include "apps/text_table.h"
 #include "session/listing.h"
 #include "session/signal/fmcw_settings.h"
@@ -14,6 +17,37 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using session::ListedThing, session::Listing;
+
+struct ListOptions {
+  std::string what;  // "scenes", "sensors", "materials", "effects" or "products"; empty: all, short
+  std::string data;  // as in the other commands: are the scenes' files there?
+  bool json = false;
+  bool names = false;  // alone, one a line
+};
+
+CLI::App& declare_list(CLI::App& program, ListOptions& options) {
+  CLI::App& command = *program.add_subcommand(
+      "list", "List the scenes, sensors, materials, effects and products that there are");
+  CLI::Option* what =
+      command.add_option("WHAT", options.what, "Left out: the names of them all")
+          ->check(CLI::IsMember({"scenes", "sensors", "materials", "effects", "products"}));
+  CLI::Option* json = command.add_flag("--json", options.json, "Print JSON");
+  command.add_flag("--names", options.names, "Print the names alone, one a line")
+      ->needs(what)
+      ->excludes(json);
+  add_data_option(command, options.data,
+                  std::string(kDataOrder) + ": are the files of the scenes there?");
+  command.callback([&options] {
+    const bool told =
+        options.what.empty() ? options.json : options.what == "scenes" && !options.names;
+    if (!options.data.empty() && !told)
+      throw CLI::ValidationError("--data",
+                                 "only tells in fanbeam list scenes, and in the JSON of "
+                                 "everything, whether the files of scenes "
+                                 "are there");
+  });
+  return command;
+}
 
 constexpr const char* kKinds[] = {"scenes", "sensors", "materials", "effects", "products"};
 
@@ -65,8 +99,6 @@ void print_table(const std::string& kind, const Listing& listing) {
   }
 }
 
-}  // namespace
-
 int list(const ListOptions& options, const CommonOptions& common) {
   if (options.what.empty()) {
     Json all;
@@ -91,5 +123,9 @@ int list(const ListOptions& options, const CommonOptions& common) {
   }
   return kExitDone;
 }
+
+}  // namespace
+
+void add_list(CommandLine& line) { line.add(declare_list, list); }
 
 }  // namespace fanbeam::apps

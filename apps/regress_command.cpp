@@ -1,12 +1,17 @@
-#include "apps/regress_command.h"
-
+// fanbeam regress: a suite of pictures against approved ones, and approving new ones.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <string>
 #include <vector>
 
+#include "apps/command_line.h"
+#include "apps/commands.h"
+#include "apps/number_check.h"
 #include "apps/render_command.h"
 #include "apps/scene_choice.h"
+#include "apps/value_words.h"
 #include "core/text.h"
 #include "measure/regress/report.h"
 #include "measure/regress/run.h"
@@ -17,6 +22,75 @@ namespace {
 namespace fs = std::filesystem;
 using measure::CaseResult;
 using measure::CaseState;
+
+struct RegressOptions {
+  std::string suite;   // TOML file
+  std::string output;  // default out/regress/<suite name>
+  std::string data;    // folder instead of the suite's
+  std::string junit;   // default junit.xml in the output folder
+  bool page = true;    // report.html with its pictures
+  int threads = 0;
+};
+
+struct ApproveOptions {
+  std::string suite, output;
+  std::string reason;
+  std::string only;  // name of a case; empty: every case that did not pass
+};
+
+struct RegressionOptions {
+  bool approves = false;  // its subcommands: run, or approve
+  RegressOptions run;
+  ApproveOptions approval;
+};
+
+constexpr const char* kOutputHelp = "Folder of results (default out/regress/<suite name>)";
+
+void add_run(CLI::App& regress, RegressOptions& options) {
+  CLI::App& command = *regress.add_subcommand(
+      "run", "Render the suite's cases, compare with the approved pictures and report");
+  command.add_option("SUITE", options.suite, "TOML file (docs/regression.md)")
+      ->type_name(kFileValue)
+      ->required();
+  add_output_option(command, options.output, kOutputHelp);
+  command
+      .add_option("--junit", options.junit,
+                  "File for the JUnit XML (default junit.xml in the folder of results)")
+      ->type_name(kFileValue);
+  command.add_flag(
+      "--html,!--no-html", options.page,
+      "Write report.html with the pictures that differ (the default), or leave it out");
+  add_data_option(command, options.data, "instead of the suite's");
+  add_threads_option(command, options.threads);
+  command.footer(
+      "--isa replaces what the suite pins. docs/regression.md tells how to use it in a CI.");
+}
+
+CLI::App& add_approve(CLI::App& regress, ApproveOptions& options) {
+  CLI::App& command = *regress.add_subcommand(
+      "approve", "Take the pictures of the last run as the approved ones, and keep the reason");
+  command.add_option("SUITE", options.suite, "TOML file (docs/regression.md)")
+      ->type_name(kFileValue)
+      ->required();
+  command
+      .add_option("--reason", options.reason,
+                  "Why the new pictures are right; stands beside them in approval.json")
+      ->required();
+  command.add_option("--case", options.only,
+                     "Name of one case (default: every case that did not pass)");
+  add_output_option(command, options.output, kOutputHelp);
+  return command;
+}
+
+CLI::App& declare_regress(CLI::App& program, RegressionOptions& options) {
+  CLI::App& command = *program.add_subcommand(
+      "regress", "Image regression: a suite of pictures against approved ones");
+  command.require_subcommand(1);
+  add_run(command, options.run);
+  CLI::App& approval = add_approve(command, options.approval);
+  approval.callback([&options] { options.approves = true; });
+  return command;
+}
 
 void render_case(const measure::SuiteCase& one, const RegressOptions& options,
                  const fs::path& folder) {
@@ -111,10 +185,16 @@ int approve(const ApproveOptions& options, const CommonOptions& common) {
   return kExitDone;
 }
 
-}  // namespace
-
+// Does the one or the other (measure/regress/run.h), and tells. Of run: 0 when all pictures are within
+// their tolerances; 1 when some are not, or are not approved yet; otherwise, after the reports were
+// written, what the cases that could not be rendered ask for (exit_code_of). Throws InputError for a
+// suite that is not valid, before anything is rendered, and E-RANGE for a reason that says nothing.
 int regression(const RegressionOptions& options, const CommonOptions& common) {
   return options.approves ? approve(options.approval, common) : regress(options.run, common);
 }
+
+}  // namespace
+
+void add_regress(CommandLine& line) { line.add(declare_regress, regression); }
 
 }  // namespace fanbeam::apps

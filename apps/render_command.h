@@ -23,6 +23,5 @@ struct RenderOptions : session::RenderRequest {
 // end the process by that signal (a shell sees 130 or 143), within a second, with whole files only
 // and without run.json.
 int render(const RenderOptions& options, const CommonOptions& common);
-CLI::App& add_render_command(CLI::App& program, RenderOptions& options);
 
 }  // namespace fanbeam::apps

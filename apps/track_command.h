@@ -24,8 +24,4 @@ struct TrackOptions : session::TrackSettings {
   std::set<std::string> given{};              // names of options that the command line has
 };
 
-// Returns an exit code; throws InputError for bad input.
-int track(const TrackOptions& options, const CommonOptions& common);
-CLI::App& add_track_command(CLI::App& program, TrackOptions& options);
-
 }  // namespace fanbeam::apps

@@ -1,12 +1,24 @@
-#include "apps/validate_command.h"
-
+// fanbeam validate: every problem of a scene at once.
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
+
+#include "apps/command_line.h"
+#include "apps/commands.h"
+#include "apps/scene_choice.h"
 #include "session/session.h"
 
 namespace fanbeam::apps {
+namespace {
 
-int validate(const ValidateOptions& options, const CommonOptions& common) {
+CLI::App& declare_validate(CLI::App& program, SceneChoice& options) {
+  CLI::App& command =
+      *program.add_subcommand("validate", "Check a scene and report every problem at once");
+  add_scene_choice(command, options);
+  return command;
+}
+
+int validate(const SceneChoice& options, const CommonOptions& common) {
   core::ProblemList problems;
   const scenes::SceneDescription description = read_chosen_scene(options, problems);
   const auto scene = session::Session(description, {.pictures = false}, problems).scene();
@@ -38,5 +50,9 @@ int validate(const ValidateOptions& options, const CommonOptions& common) {
   fmt::print("  built in    {:.1f} s\n", scene->build_s);
   return kExitDone;
 }
+
+}  // namespace
+
+void add_validate(CommandLine& line) { line.add(declare_validate, validate); }
 
 }  // namespace fanbeam::apps
