@@ -8,9 +8,8 @@
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
-#include "apps/number_check.h"
+#include "apps/option_kinds.h"
 #include "apps/scene_choice.h"
-#include "apps/value_words.h"
 #include "apps/weather_options.h"
 #include "atmosphere/loss_table.h"
 #include "atmosphere/loss_text.h"
@@ -71,33 +70,28 @@ Options add_amounts(CLI::App& command, WeatherOptions& weather) {
 }
 
 void add_laws(CLI::App& command, WeatherOptions& weather) {
-  command.add_option("--fog-type", weather.fog_type, "Water from visibility")
-      ->check(CLI::IsMember({"kunkel", "eldridge-altshuler", "zhao-radiation", "zhao-advection",
-                             "tomasi-dry-cold", "tomasi-wet-warm"}));
-  command.add_option("--fog-law", weather.fog_law, "Loss from water")
-      ->check(CLI::IsMember({"itu-p840", "altshuler", "centimetre"}));
-  command.add_option("--rain-law", weather.rain_law, "Loss from rain rate")
-      ->check(CLI::IsMember({"itu-p838", "georgia-tech-95", "mie"}));
-  command.add_option("--rain-echo-law", weather.rain_echo_law, "Echo from rain rate")
-      ->check(CLI::IsMember({"mie", "mie-fit", "georgia-tech-1975"}));
-  command.add_option("--drop-sizes", weather.drop_sizes, "Of the laws mie")
-      ->check(CLI::IsMember({"marshall-palmer", "joss-drizzle", "joss-thunderstorm"}));
+  add_word(command, "--fog-type", weather.fog_type,
+           {"kunkel", "eldridge-altshuler", "zhao-radiation", "zhao-advection", "tomasi-dry-cold",
+            "tomasi-wet-warm"},
+           "Water from visibility");
+  add_word(command, "--fog-law", weather.fog_law, {"itu-p840", "altshuler", "centimetre"},
+           "Loss from water");
+  add_word(command, "--rain-law", weather.rain_law, {"itu-p838", "georgia-tech-95", "mie"},
+           "Loss from rain rate");
+  add_word(command, "--rain-echo-law", weather.rain_echo_law,
+           {"mie", "mie-fit", "georgia-tech-1975"}, "Echo from rain rate");
+  add_word(command, "--drop-sizes", weather.drop_sizes,
+           {"marshall-palmer", "joss-drizzle", "joss-thunderstorm"}, "Of the laws mie");
   CLI::Option* polarisation =
-      command
-          .add_option("--polarisation", weather.polarisation,
-                      "For the rain law itu-p838 (default: the scene's, else HH)")
-          ->check(CLI::IsMember({"HH", "VV"}));
-  command
-      .add_option("--tilt", weather.tilt_deg,
-                  "The same in between: tilt from horizontal, degrees, -180 to 180; 45 stands for "
-                  "circular too")
-      ->check(number_from(-180.0, 180.0))
+      add_word(command, "--polarisation", weather.polarisation, {"HH", "VV"},
+               "For the rain law itu-p838 (default: the scene's, else HH)");
+  add_number(command, "--tilt", weather.tilt_deg, {-180.0, 180.0},
+             "The same in between: tilt from horizontal, degrees, -180 to 180; 45 stands for "
+             "circular too")
       ->excludes(polarisation);
-  command
-      .add_option("--path-elevation", weather.path_elevation_deg,
-                  "For the rain law itu-p838: elevation of the path, degrees, -90 to 90 (default "
-                  "0, as scenes are rendered; heights and range do not change it)")
-      ->check(number_from(-90.0, 90.0));
+  add_number(command, "--path-elevation", weather.path_elevation_deg, {-90.0, 90.0},
+             "For the rain law itu-p838: elevation of the path, degrees, -90 to 90 (default "
+             "0, as scenes are rendered; heights and range do not change it)");
 }
 
 void add_air(CLI::App& command, WeatherOptions& weather) {
@@ -107,10 +101,8 @@ void add_air(CLI::App& command, WeatherOptions& weather) {
   CLI::Option* pressure =
       command.add_option("--pressure", weather.pressure_hPa,
                          "Of air and vapour together, at the origin, hPa, 300 to 1100");
-  command
-      .add_option("--vapour-density", weather.vapour_density_g_per_m3,
-                  "Water vapour at the origin, g/m3, 0 to saturation; in fog air is saturated")
-      ->check(number_from(0.0, 300.0))
+  add_number(command, "--vapour-density", weather.vapour_density_g_per_m3, {0.0, 300.0},
+             "Water vapour at the origin, g/m3, 0 to saturation; in fog air is saturated")
       ->excludes(humidity);
   command
       .add_option(
@@ -123,9 +115,7 @@ void add_air(CLI::App& command, WeatherOptions& weather) {
 Options add_path(CLI::App& command, AtmosphereOptions& options) {
   const auto add = [&](const char* name, double& value, const char* what, double least,
                        double most) {
-    return command.add_option(name, value, what)
-        ->check(number_from(least, most))
-        ->capture_default_str();
+    return add_number(command, name, value, {least, most}, what)->capture_default_str();
   };
   return {
       add("--height", options.height_m, "Of the antenna above the origin, m", -2000, 12000),
@@ -140,25 +130,19 @@ CLI::App& declare_atmosphere(CLI::App& program, AtmosphereOptions& options) {
   CLI::Option* scene =
       command.add_option("SCENE", options.scene, "A scene whose weather and sensor are used")
           ->type_name(kSceneValue);
-  command
-      .add_option("--data", options.data,
-                  "Folder with terrain and flight data, looked at before the one that FANBEAM_DATA "
-                  "names")
-      ->type_name(kFolderValue)
+  add_folder(command, "--data", options.data,
+             "Folder with terrain and flight data, looked at before the one that FANBEAM_DATA "
+             "names")
       ->needs(scene);
-  CLI::Option* frequency = command
-                               .add_option("--frequency", options.frequency_GHz,
-                                           "GHz, one or more: 35,94 (default: the sensor's)")
-                               ->delimiter(',')
-                               ->check(number_from(1.0, 1000.0));
+  CLI::Option* frequency = add_number(command, "--frequency", options.frequency_GHz, {1.0, 1000.0},
+                                      "GHz, one or more: 35,94 (default: the sensor's)")
+                               ->delimiter(',');
   CLI::Option* compare =
-      command
-          .add_option("--compare", options.compare_GHz,
-                      "Two frequencies in GHz: a table of their losses and echoes in several fogs "
-                      "and rains, and plots of them with -o")
+      add_number(command, "--compare", options.compare_GHz, {1.0, 1000.0},
+                 "Two frequencies in GHz: a table of their losses and echoes in several fogs "
+                 "and rains, and plots of them with -o")
           ->delimiter(',')
-          ->expected(2)
-          ->check(number_from(1.0, 1000.0));
+          ->expected(2);
   CLI::Option* csv = command.add_flag("--csv", options.csv, "Print CSV");
   CLI::Option* json = command.add_flag("--json", options.json, "Print JSON")->excludes(csv);
   Options without_effect = {frequency, csv, json};
@@ -167,10 +151,8 @@ CLI::App& declare_atmosphere(CLI::App& program, AtmosphereOptions& options) {
   for (CLI::Option* option : without_effect) compare->excludes(option);
   add_laws(command, options.weather);
   add_air(command, options.weather);
-  command
-      .add_option("-o,--output", options.output,
-                  "Folder for plots, and for CSV and JSON unless --compare (default: none written)")
-      ->type_name(kFolderValue);
+  add_folder(command, "-o,--output", options.output,
+             "Folder for plots, and for CSV and JSON unless --compare (default: none written)");
   return command;
 }
 

@@ -12,10 +12,9 @@
 #include "apps/campaign_plan.h"
 #include "apps/command_line.h"
 #include "apps/commands.h"
-#include "apps/number_check.h"
+#include "apps/option_kinds.h"
 #include "apps/progress.h"
 #include "apps/stop_on_signals.h"
-#include "apps/value_words.h"
 #include "core/files.h"
 #include "core/parallel.h"
 #include "core/stop.h"
@@ -37,9 +36,7 @@ using CampaignTask = CampaignOptions::Task;
 CLI::App& add_task(CLI::App& campaign, CampaignOptions& options, CampaignTask task,
                    const char* name, const char* what) {
   CLI::App& command = *campaign.add_subcommand(name, what);
-  command.add_option("FILE", options.file, "Campaign (docs/campaigns.md)")
-      ->type_name(kFileValue)
-      ->required();
+  add_file(command, "FILE", options.file, "Campaign (docs/campaigns.md)")->required();
   command.callback([&options, task] { options.task = task; });
   return command;
 }
@@ -74,19 +71,15 @@ void add_run(CLI::App& campaign, CampaignOptions& options) {
 void add_slurm(CLI::App& campaign, CampaignOptions& options) {
   CLI::App& slurm = add_task(campaign, options, CampaignTask::slurm, "slurm",
                              "Write a script that has Slurm do all of it");
-  slurm.add_option("-o,--output", options.output, "Script (default job.sh)")->type_name(kFileValue);
-  slurm
-      .add_option("--folder", options.folder,
-                  "Folder of the campaign, which all nodes share (default out/<campaign's name>)")
-      ->type_name(kFolderValue);
-  slurm.add_option("--tasks", options.tasks, "Processes of the job array, a node each")
-      ->check(whole_number_from(1, 100'000))
+  add_file(slurm, "-o,--output", options.output, "Script (default job.sh)");
+  add_folder(slurm, "--folder", options.folder,
+             "Folder of the campaign, which all nodes share (default out/<campaign's name>)");
+  add_whole_number(slurm, "--tasks", options.tasks, {1, 100'000},
+                   "Processes of the job array, a node each")
       ->capture_default_str();
   add_data_option(slurm, options.data, kDataOrder);
-  slurm
-      .add_option("--threads", options.threads,
-                  "Processors of each process (default: a node for itself)")
-      ->check(whole_number_from(0, 1024));
+  add_whole_number(slurm, "--threads", options.threads, {0, 1024},
+                   "Processors of each process (default: a node for itself)");
 }
 
 CLI::App& declare_campaign(CLI::App& program, CampaignOptions& options) {
@@ -116,8 +109,7 @@ CLI::App& declare_campaign(CLI::App& program, CampaignOptions& options) {
                               "Check every file against its hash, and tell what repairs the rest");
   add_output(verify, options);
   add_runs(verify, options);
-  verify.add_option("--data", options.data, "That of the runs, for the command that repairs them")
-      ->type_name(kFolderValue);
+  add_folder(verify, "--data", options.data, "That of the runs, for the command that repairs them");
   add_slurm(campaign, options);
   return campaign;
 }

@@ -6,6 +6,7 @@
 
 #include "apps/help/help_formatter.h"
 #include "apps/help/suggestion.h"
+#include "apps/option_kinds.h"
 #include "core/machine.h"
 #include "session/version.h"
 
@@ -17,16 +18,14 @@ void add_common_options(CLI::App& command, CommonOptions& common) {
       "--version", "fanbeam " + session::version_text() + " (" + session::commit_text() + ")");
   command.add_flag("-q,--quiet", common.quiet,
                    "No progress and no notes: only what was asked for, and errors");
-  command.add_option("--log-level", common.log_level, "Least message level shown")
-      ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error"}))
+  add_word(command, "--log-level", common.log_level, {"trace", "debug", "info", "warning", "error"},
+           "Least message level shown")
       ->capture_default_str();
-  command
-      .add_option("--isa", common.isa,
-                  "Use no instructions beyond this level of x86-64 (v2 SSE4.2, v3 AVX2, v4 "
-                  "AVX-512), in our kernels and in Embree, for pictures that machines of several "
-                  "kinds are to share (default: the campaign's or suite's own where there is "
-                  "one, else the best of this machine)")
-      ->check(CLI::IsMember({"v2", "v3", "v4"}));
+  add_word(command, "--isa", common.isa, {"v2", "v3", "v4"},
+           "Use no instructions beyond this level of x86-64 (v2 SSE4.2, v3 AVX2, v4 "
+           "AVX-512), in our kernels and in Embree, for pictures that machines of several "
+           "kinds are to share (default: the campaign's or suite's own where there is one, else "
+           "the best of this machine)");
 }
 
 }  // namespace

@@ -2,8 +2,7 @@
 
 #include "apps/command_line.h"
 #include "apps/common.h"
-#include "apps/number_check.h"
-#include "apps/value_words.h"
+#include "apps/option_kinds.h"
 #include "renderer/plan/caster_choice.h"
 #include "renderer/plan/plan.h"
 
@@ -12,18 +11,17 @@ namespace fanbeam::apps {
 // No refinement reaches 0, and past 100 of 255 levels there is no picture left to speak of.
 CLI::Option* add_accuracy_option(CLI::App& command, double& accuracy_grey,
                                  const std::string& what) {
-  return command.add_option("--accuracy", accuracy_grey, what)
-      ->check(number_from(renderer::kAccuracies_grey));
+  return add_number(command, "--accuracy", accuracy_grey, renderer::kAccuracies_grey, what);
 }
 
 void add_caster_option(CLI::App& command, std::string& caster, const std::string& what) {
   const auto& wishes = renderer::kCasterWishes;
-  command.add_option("--caster", caster, what)
-      ->check(CLI::IsMember(std::vector<std::string>(wishes.begin(), wishes.end())));
+  add_word(command, "--caster", caster, std::vector<std::string>(wishes.begin(), wishes.end()),
+           what);
 }
 
 void add_output_option(CLI::App& command, std::string& folder, const std::string& what) {
-  command.add_option("-o,--output", folder, what)->type_name(kFolderValue);
+  add_folder(command, "-o,--output", folder, what);
 }
 
 CLI::Option* add_frames_option(CLI::App& command, std::string& frames, const std::string& what) {
@@ -31,8 +29,7 @@ CLI::Option* add_frames_option(CLI::App& command, std::string& frames, const std
 }
 
 void add_data_option(CLI::App& command, std::string& folder, const std::string& order) {
-  command.add_option("--data", folder, "Folder with terrain and flight data, " + order)
-      ->type_name(kFolderValue);
+  add_folder(command, "--data", folder, "Folder with terrain and flight data, " + order);
 }
 
 void add_seed_option(CLI::App& command, std::uint64_t& seed) {
@@ -42,8 +39,7 @@ void add_seed_option(CLI::App& command, std::uint64_t& seed) {
 }
 
 void add_threads_option(CLI::App& command, int& threads) {
-  command.add_option("--threads", threads, "Threads to use (default: all cores)")
-      ->check(whole_number_from(0, 1024));
+  add_whole_number(command, "--threads", threads, {0, 1024}, "Threads to use (default: all cores)");
 }
 
 }  // namespace fanbeam::apps

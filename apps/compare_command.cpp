@@ -12,8 +12,7 @@
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
-#include "apps/number_check.h"
-#include "apps/value_words.h"
+#include "apps/option_kinds.h"
 #include "core/image_compare.h"
 #include "core/text.h"
 #include "measure/image_files.h"
@@ -40,35 +39,25 @@ struct CompareOptions {
 CLI::App& declare_compare(CLI::App& program, CompareOptions& options) {
   CLI::App& command =
       *program.add_subcommand("compare", "Compare two images or two folders of images");
-  command.add_option("A", options.a, "Image (PNG, EXR) or folder of images")
-      ->type_name(kFileValue)
-      ->required();
-  command.add_option("B", options.b, "Another of the same kind")->type_name(kFileValue)->required();
+  add_file(command, "A", options.a, "Image (PNG, EXR) or folder of images")->required();
+  add_file(command, "B", options.b, "Another of the same kind")->required();
   CLI::Option* rms =
-      command
-          .add_option("--rms", options.rms,
-                      "Largest RMS difference allowed: grey levels for PNG, dB for power layers "
-                      "(default: 0, but none beside another limit)")
-          ->check(number_from(0.0, 1000.0));
+      add_number(command, "--rms", options.rms, {0.0, 1000.0},
+                 "Largest RMS difference allowed: grey levels for PNG, dB for power layers "
+                 "(default: 0, but none beside another limit)");
   CLI::Option* largest =
-      command
-          .add_option("--largest", options.largest,
-                      "Largest single difference allowed, same units (0 or default: any)")
-          ->check(number_from(0.0, 1000.0));
+      add_number(command, "--largest", options.largest, {0.0, 1000.0},
+                 "Largest single difference allowed, same units (0 or default: any)");
   CLI::Option* percent =
-      command
-          .add_option("--percent", options.percent_different,
-                      "Largest share of differing cells allowed, per cent (default: any)")
-          ->check(number_from(0.0, 100.0));
+      add_number(command, "--percent", options.percent_different, {0.0, 100.0},
+                 "Largest share of differing cells allowed, per cent (default: any)");
   command.add_flag("--exact", options.exact, "Every value equal")
       ->excludes(rms)
       ->excludes(largest)
       ->excludes(percent);
-  command
-      .add_option("--heat-map", options.heat_map,
-                  "Draw where they differ, B - A in grey levels or dB: a PNG file for two images; "
-                  "for two folders a folder of maps of the pairs that differ")
-      ->type_name(kFileValue);
+  add_file(command, "--heat-map", options.heat_map,
+           "Draw where they differ, B - A in grey levels or dB: a PNG file for two images; "
+           "for two folders a folder of maps of the pairs that differ");
   return command;
 }
 

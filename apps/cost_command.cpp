@@ -9,7 +9,7 @@
 #include "apps/command_line.h"
 #include "apps/commands.h"
 #include "apps/cost_levels.h"
-#include "apps/number_check.h"
+#include "apps/option_kinds.h"
 #include "apps/progress.h"
 #include "apps/scene_choice.h"
 #include "core/files.h"
@@ -45,19 +45,14 @@ CLI::App& declare_cost(CLI::App& program, CostOptions& options) {
   add_frames_option(command, options.frames,
                     std::string(kFramesText) +
                         " (default: two, at a quarter and at three quarters of the approach)");
-  command
-      .add_option(
-          "--parts", options.parts,
-          "What to measure: ladder (error against time of every way of sampling), effects "
-          "(each left out or forced on), numerics (range in float or double, robust flag, "
-          "sub-columns of the beam), levels (the B-scope from powers and from beat signals)")
+  add_word(command, "--parts", options.parts, {"ladder", "effects", "numerics", "levels"},
+           "What to measure: ladder (error against time of every way of sampling), effects "
+           "(each left out or forced on), numerics (range in float or double, robust flag, "
+           "sub-columns of the beam), levels (the B-scope from powers and from beat signals)")
       ->delimiter(',')
-      ->check(CLI::IsMember({"ladder", "effects", "numerics", "levels"}))
       ->capture_default_str();
-  command
-      .add_option("--repetitions", options.repetitions,
-                  "Repetitions of every timing after a warm-up (default 20, or 3 with --quick)")
-      ->check(whole_number_from(1, 10000));
+  add_whole_number(command, "--repetitions", options.repetitions, {1, 10000},
+                   "Repetitions of every timing after a warm-up (default 20, or 3 with --quick)");
   command.add_flag("--quick", options.quick,
                    "A short look: fewer steps and repetitions, a coarse reference");
   add_caster_option(command, options.caster,

@@ -10,9 +10,9 @@
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
+#include "apps/option_kinds.h"
 #include "apps/scene_choice.h"
 #include "apps/text_table.h"
-#include "apps/value_words.h"
 #include "core/files.h"
 #include "core/text.h"
 #include "core/units.h"
@@ -44,8 +44,7 @@ CLI::App& declare_doctor(CLI::App& program, DoctorOptions& options) {
   CLI::App& command = *program.add_subcommand(
       "doctor", "Tell what makes a scene numerically delicate, why it matters and what to do");
   add_scene_choice(command, options);
-  command.add_option("--json", options.json, "Write the findings to this file as well")
-      ->type_name(kFileValue);
+  add_file(command, "--json", options.json, "Write the findings to this file as well");
   add_accuracy_option(
       command, options.accuracy_grey,
       "Grey levels that will be asked for: is that possible? (default: the scene's, else " +

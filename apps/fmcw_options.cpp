@@ -3,9 +3,8 @@
 
 #include "apps/command_line.h"
 #include "apps/fmcw_command.h"
-#include "apps/number_check.h"
+#include "apps/option_kinds.h"
 #include "apps/option_lists.h"
-#include "apps/value_words.h"
 #include "core/text.h"
 #include "renderer/casting/sampling.h"
 #include "scenes/scene.h"
@@ -54,17 +53,15 @@ void add_radar(CLI::App& command, FmcwOptions& options) {
   std::vector<std::string> names = {session::kAutomotive};
   for (const signal::WaveformKind kind : signal::all_waveform_kinds())
     names.emplace_back(signal::name(kind));
-  command
-      .add_option("--waveform", options.waveform,
-                  "automotive-76ghz: chirps of 20 us, one transmitter after the other; or a kind "
-                  "of fanbeam waveform (default: automotive-76ghz for sensors of 70 to 82 GHz, "
-                  "else chirp-sequence)")
-      ->check(CLI::IsMember(names));
+  add_word(command, "--waveform", options.waveform, names,
+           "automotive-76ghz: chirps of 20 us, one transmitter after the other; or a kind "
+           "of fanbeam waveform (default: automotive-76ghz for sensors of 70 to 82 GHz, "
+           "else chirp-sequence)");
   for (std::size_t i = 0; i < session::kWaveformNumbers.size(); ++i) {
     const session::WaveformNumber& number = session::kWaveformNumbers[i];
     if (std::string_view(number.option) == "--frequency") continue;  // the sensor's
-    command.add_option(number.option, options.numbers[i], number.help)
-        ->check(number_from(number.least, number.most));
+    add_number(command, number.option, options.numbers[i], {number.least, number.most},
+               number.help);
   }
   command.add_flag("--real", options.real, "Real samples: negative beats read as positive ones");
   add_elements(command, "--transmitters", options, options.transmitters, "Of the array");
@@ -73,19 +70,13 @@ void add_radar(CLI::App& command, FmcwOptions& options) {
 }
 
 void add_receiver(CLI::App& command, FmcwOptions& options) {
-  command
-      .add_option("--line-width", options.line_width_Hz,
-                  "Of the oscillator, Hz: phase noise (default 0: none)")
-      ->check(number_from(0.0, 1e6));
-  command
-      .add_option("--adc-bits", options.adc_bits,
-                  "Quantise the samples, full scale at the largest (default 0: not)")
-      ->check(whole_number_from(0, 24));
-  command
-      .add_option("--adc-full-scale", options.adc_full_scale_dBm,
-                  "Full scale of the quantiser instead, dBm of a tone that just fills it: what is "
-                  "stronger saturates")
-      ->check(number_from(-300.0, 300.0));
+  add_number(command, "--line-width", options.line_width_Hz, {0.0, 1e6},
+             "Of the oscillator, Hz: phase noise (default 0: none)");
+  add_whole_number(command, "--adc-bits", options.adc_bits, {0, 24},
+                   "Quantise the samples, full scale at the largest (default 0: not)");
+  add_number(command, "--adc-full-scale", options.adc_full_scale_dBm, {-300.0, 300.0},
+             "Full scale of the quantiser instead, dBm of a tone that just fills it: what is "
+             "stronger saturates");
 }
 
 void add_window(CLI::App& command, const char* name, signal::Window& window, const char* what) {
@@ -150,10 +141,8 @@ void add_detector(CLI::App& command, FmcwOptions& options) {
            "Cells on each side that it leaves out, over the windows' main lobe");
   add_span(command, "--cfar-training", options.cfar_training,
            "Cells on each side beyond them that tell the background");
-  command
-      .add_option("--pfa", options.false_alarm_probability,
-                  "False-alarm probability of a cell of the range-Doppler map")
-      ->check(number_from(1e-12, 0.1))
+  add_number(command, "--pfa", options.false_alarm_probability, {1e-12, 0.1},
+             "False-alarm probability of a cell of the range-Doppler map")
       ->capture_default_str();
 }
 
@@ -169,19 +158,13 @@ void add_detections(CLI::App& command, FmcwOptions& options) {
           "inside a beamwidth apart, capon sharpens the range-azimuth map too (default "
           "beamforming)")
       ->check(CLI::IsMember({"beamforming", "capon", "music"}));
-  command
-      .add_option("--cluster-place", options.cluster_place_m,
-                  "Metres within which detections are neighbours (default: four widths of the "
-                  "range response)")
-      ->check(number_from(1e-3, 1000.0));
-  command
-      .add_option("--cluster-speed", options.cluster_speed_mps,
-                  "m/s likewise (default: four widths of the Doppler response)")
-      ->check(number_from(1e-3, 1000.0));
-  command
-      .add_option("--cluster-neighbours", options.cluster_neighbours,
-                  "Detections, itself included, that make one the core of a cluster")
-      ->check(whole_number_from(1, 100))
+  add_number(command, "--cluster-place", options.cluster_place_m, {1e-3, 1000.0},
+             "Metres within which detections are neighbours (default: four widths of the "
+             "range response)");
+  add_number(command, "--cluster-speed", options.cluster_speed_mps, {1e-3, 1000.0},
+             "m/s likewise (default: four widths of the Doppler response)");
+  add_whole_number(command, "--cluster-neighbours", options.cluster_neighbours, {1, 100},
+                   "Detections, itself included, that make one the core of a cluster")
       ->capture_default_str();
   command.add_flag(
       "--unfold", options.unfold,
@@ -192,10 +175,8 @@ void add_detections(CLI::App& command, FmcwOptions& options) {
 void add_maps(CLI::App& command, FmcwOptions& options) {
   command.add_flag("--refuse-folding", options.refuse_folding,
                    "A scatterer beyond the unambiguous spans is an error, not a warning");
-  command
-      .add_option("--dynamic-range", options.dynamic_range_dB,
-                  "Of the pictures' colours, dB from the noise up")
-      ->check(number_from(1.0, 300.0))
+  add_number(command, "--dynamic-range", options.dynamic_range_dB, {1.0, 300.0},
+             "Of the pictures' colours, dB from the noise up")
       ->capture_default_str();
 }
 
@@ -244,15 +225,13 @@ CLI::App& declare_fmcw(CLI::App& program, FmcwOptions& options) {
   });
   add_receiver(command, options);
   add_plan(command, options);
-  command
-      .add_option("--rays-per-cell", options.rays_per_cell,
-                  "Scatterers per range cell and azimuth column of the sensor")
-      ->check(number_from(renderer::kFewestRaysPerCell, 1000.0))
+  add_number(command, "--rays-per-cell", options.rays_per_cell,
+             {renderer::kFewestRaysPerCell, 1000.0},
+             "Scatterers per range cell and azimuth column of the sensor")
       ->capture_default_str();
-  command
-      .add_option("--looks", options.looks,
-                  "Sweeps per column of the B-scope, their powers averaged (default: the sensor's)")
-      ->check(whole_number_from(1, 100000));
+  add_whole_number(
+      command, "--looks", options.looks, {1, 100000},
+      "Sweeps per column of the B-scope, their powers averaged (default: the sensor's)");
   command.add_option("--spectrogram-of", options.spectrogram_of,
                      "Name, or its beginning, of targets about whose range the spectrogram looks "
                      "(default: all ranges)");

@@ -13,7 +13,7 @@
 #include "apps/help/man_page.h"
 #include "apps/help/option_text.h"
 #include "apps/help/suggestion.h"
-#include "apps/value_words.h"
+#include "apps/option_kinds.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -35,9 +35,8 @@ CLI::App& declare_help(CLI::App& program, HelpOptions& options) {
           .add_flag("--bash-completion", options.bash_completion,
                     "Print a script for bash that completes commands, options and their values")
           ->excludes(name);
-  command
-      .add_option("--man-pages", options.man_pages, "Write a manual page for each command there")
-      ->type_name(kFolderValue)
+  add_folder(command, "--man-pages", options.man_pages,
+             "Write a manual page for each command there")
       ->excludes(name)
       ->excludes(completion);
   return command;

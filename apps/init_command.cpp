@@ -8,9 +8,8 @@
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
-#include "apps/number_check.h"
+#include "apps/option_kinds.h"
 #include "apps/text_table.h"
-#include "apps/value_words.h"
 #include "core/text.h"
 #include "scenes/airport/apt_dat_reader.h"
 #include "scenes/airport/runway_csv_reader.h"
@@ -38,11 +37,9 @@ constexpr const char* kPlaceValue = "PLACE";
 
 void add_runway_data(CLI::App& command, InitOptions& options) {
   CLI::App& source = *command.add_option_group("Where the runway is, one of");
-  source.add_option("--apt-dat", options.apt_dat, "X-Plane's apt.dat")->type_name(kFileValue);
-  source
-      .add_option("--runways", options.runways,
-                  "OurAirports' runways.csv, or a table with a row per runway end")
-      ->type_name(kFileValue);
+  add_file(source, "--apt-dat", options.apt_dat, "X-Plane's apt.dat");
+  add_file(source, "--runways", options.runways,
+           "OurAirports' runways.csv, or a table with a row per runway end");
   CLI::Option* threshold = source.add_option("--threshold", options.threshold,
                                              "LAT,LON[,HEIGHT_M] of the end that is landed on: "
                                              "degrees, metres above mean sea level");
@@ -53,52 +50,38 @@ void add_runway_data(CLI::App& command, InitOptions& options) {
           ->type_name(kPlaceValue)
           ->needs(threshold);
   threshold->needs(far_end);
-  command
-      .add_option("--runway-width", options.runway_width_m,
-                  "Metres, beside --threshold (default: 45)")
-      ->check(number_from(5.0, 200.0))
+  add_number(command, "--runway-width", options.runway_width_m, {5.0, 200.0},
+             "Metres, beside --threshold (default: 45)")
       ->needs(threshold);
 }
 
 CLI::App& declare_init(CLI::App& program, InitOptions& options) {
   CLI::App& command = *program.add_subcommand(
       "init", "Write a commented scene of an airport from runway data and an elevation file");
-  command.add_option("FOLDER", options.folder, "Where the scene goes: a new folder")
-      ->type_name(kFolderValue)
-      ->required();
+  add_folder(command, "FOLDER", options.folder, "Where the scene goes: a new folder")->required();
   command.add_option("--airport", options.airport, "ICAO code, such as EDNY")->required();
   command.add_option("--runway", options.runway, "The end to land on, such as 24")->required();
   add_runway_data(command, options);
-  command
-      .add_option("--dem", options.elevation,
-                  "Elevations: GeoTIFF, DTED, SRTM .hgt or ESRI ASCII grid with its .prj")
-      ->type_name(kFileValue)
+  add_file(command, "--dem", options.elevation,
+           "Elevations: GeoTIFF, DTED, SRTM .hgt or ESRI ASCII grid with its .prj")
       ->required();
-  CLI::Option* track = command.add_option(
-      "--track", options.track,
-      "A recorded flight, CSV with a header line (default: an instrument approach)");
-  track->type_name(kFileValue);
-  command.add_option("--buildings", options.buildings, "Building footprints, GeoJSON")
-      ->type_name(kFileValue);
-  command
-      .add_option("--start-distance", options.start_distance_m,
-                  "Metres before the threshold where the flight begins")
-      ->check(number_from(500.0, 20000.0))
+  CLI::Option* track =
+      add_file(command, "--track", options.track,
+               "A recorded flight, CSV with a header line (default: an instrument approach)");
+  add_file(command, "--buildings", options.buildings, "Building footprints, GeoJSON");
+  add_number(command, "--start-distance", options.start_distance_m, {500.0, 20000.0},
+             "Metres before the threshold where the flight begins")
       ->capture_default_str();
-  command.add_option("--glide-path", options.glide_path_deg, "Degrees, of an instrument approach")
-      ->check(number_from(1.0, 10.0))
+  add_number(command, "--glide-path", options.glide_path_deg, {1.0, 10.0},
+             "Degrees, of an instrument approach")
       ->capture_default_str()
       ->excludes(track);
-  command
-      .add_option("--threshold-crossing-height", options.threshold_crossing_height_m,
-                  "Metres above the threshold")
-      ->check(number_from(5.0, 50.0))
+  add_number(command, "--threshold-crossing-height", options.threshold_crossing_height_m,
+             {5.0, 50.0}, "Metres above the threshold")
       ->capture_default_str();
-  command
-      .add_option("--data", options.data,
-                  "Data folder: files in it are named by the scene instead of copied into it, and "
-                  "rendering needs the same --data or FANBEAM_DATA")
-      ->type_name(kFolderValue);
+  add_folder(command, "--data", options.data,
+             "Data folder: files in it are named by the scene instead of copied into it, and "
+             "rendering needs the same --data or FANBEAM_DATA");
   command.add_flag("--overwrite", options.overwrite, "Replace a scene that is there already");
   command.footer(
       "What the data do not say is guessed from them, and told: columns and units of the flight, "

@@ -8,6 +8,7 @@
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
+#include "apps/option_kinds.h"
 #include "apps/text_table.h"
 #include "session/listing.h"
 #include "session/signal/fmcw_settings.h"
@@ -28,9 +29,9 @@ struct ListOptions {
 CLI::App& declare_list(CLI::App& program, ListOptions& options) {
   CLI::App& command = *program.add_subcommand(
       "list", "List the scenes, sensors, materials, effects and products that there are");
-  CLI::Option* what =
-      command.add_option("WHAT", options.what, "Left out: the names of them all")
-          ->check(CLI::IsMember({"scenes", "sensors", "materials", "effects", "products"}));
+  CLI::Option* what = add_word(command, "WHAT", options.what,
+                               {"scenes", "sensors", "materials", "effects", "products"},
+                               "Left out: the names of them all");
   CLI::Option* json = command.add_flag("--json", options.json, "Print JSON");
   command.add_flag("--names", options.names, "Print the names alone, one a line")
       ->needs(what)

@@ -10,11 +10,10 @@
 #include "apps/command_line.h"
 #include "apps/commands.h"
 #include "apps/live_status_line.h"
-#include "apps/number_check.h"
+#include "apps/option_kinds.h"
 #include "apps/option_lists.h"
 #include "apps/scene_choice.h"
 #include "apps/stop_on_signals.h"
-#include "apps/value_words.h"
 #include "core/parallel.h"
 #include "live/feed.h"
 #include "live/wiring/run.h"
@@ -54,19 +53,15 @@ void add_poses(CLI::App& command, LiveOptions& options) {
       command.add_flag("--lockstep", options.lockstep,
                        "One frame for each pose as it is received, with the same sampling: the "
                        "same bytes every time");
-  CLI::Option* record = command
-                            .add_option("--record", options.record,
-                                        "Keep packets, ticks, samplings and controls, for --replay")
-                            ->type_name("FILE");
+  CLI::Option* record = add_file(command, "--record", options.record,
+                                 "Keep packets, ticks, samplings and controls, for --replay");
   CLI::Option* replay =
-      command
-          .add_option("--replay", options.replay,
-                      "Fly what --record kept: with --lockstep every frame of it, byte by byte")
-          ->type_name("FILE")
+      add_file(command, "--replay", options.replay,
+               "Fly what --record kept: with --lockstep every frame of it, byte by byte")
           ->excludes(record)
           ->excludes(from);
-  command.add_option("--speed", options.speed, "Of a replay, times that of the recording")
-      ->check(number_from(0.01, 1000.0))
+  add_number(command, "--speed", options.speed, {0.01, 1000.0},
+             "Of a replay, times that of the recording")
       ->needs(replay)
       ->excludes(lockstep)
       ->capture_default_str();
@@ -89,11 +84,9 @@ void add_sinks(CLI::App& command, LiveOptions& options) {
           "a token; 0 takes any port that is free")
       ->type_name("PORT")
       ->capture_default_str();
-  command
-      .add_option("--token-file", options.token_file,
-                  "Ask of every request for the token on the file's only line, 16 to 256 letters, "
-                  "digits, - . _ or ~ (default: FANBEAM_TOKEN in the environment, else none)")
-      ->type_name("FILE");
+  add_file(command, "--token-file", options.token_file,
+           "Ask of every request for the token on the file's only line, 16 to 256 letters, "
+           "digits, - . _ or ~ (default: FANBEAM_TOKEN in the environment, else none)");
 }
 
 CLI::App& declare_live(CLI::App& program, LiveOptions& options) {
@@ -103,22 +96,19 @@ CLI::App& declare_live(CLI::App& program, LiveOptions& options) {
   add_poses(command, options);
   add_sinks(command, options);
   CLI::Option* const replay = command.get_option("--replay");
-  command.add_option("--rate", options.rate_Hz, "Frames a second (default: the sensor's)")
-      ->check(number_from(0.1, 1000.0))
+  add_number(command, "--rate", options.rate_Hz, {0.1, 1000.0},
+             "Frames a second (default: the sensor's)")
       ->excludes(replay);
-  command
-      .add_option("--rays-per-cell", options.rays_per_cell,
-                  "Rays per range cell and column, or azimuth slices per column (fractions: the "
-                  "next whole number, with fewer rays for bounces; default: the most that keeps "
-                  "the rate; in lockstep the scene's)")
-      ->check(number_from(renderer::kSamplesPerCell))
+  add_number(command, "--rays-per-cell", options.rays_per_cell, renderer::kSamplesPerCell,
+             "Rays per range cell and column, or azimuth slices per column (fractions: the "
+             "next whole number, with fewer rays for bounces; default: the most that keeps "
+             "the rate; in lockstep the scene's)")
       ->excludes(replay);
   add_effects_option(command, options.effects, renderer::Touches::pictures);
-  command.add_option("--seconds", options.seconds, "End after so long (default: when stopped)")
-      ->check(number_from(0.1, 1e9));
-  command
-      .add_option("--frames", options.frames, "End after so many frames (default: when stopped)")
-      ->check(whole_number_from(1, 1'000'000'000));
+  add_number(command, "--seconds", options.seconds, {0.1, 1e9},
+             "End after so long (default: when stopped)");
+  add_whole_number(command, "--frames", options.frames, {1, 1'000'000'000},
+                   "End after so many frames (default: when stopped)");
   add_threads_option(command, options.threads);
   command.footer("Ctrl-C and SIGTERM are a good end, as --seconds is: exit code 0.");
   return command;

@@ -11,9 +11,8 @@
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
-#include "apps/number_check.h"
 #include "apps/objects_table.h"
-#include "apps/value_words.h"
+#include "apps/option_kinds.h"
 #include "core/files.h"
 #include "core/units.h"
 #include "materials/library/library_text.h"
@@ -63,27 +62,22 @@ struct MaterialsOptions {
 
 // What surfaces are looked at with.
 std::vector<CLI::Option*> add_view(CLI::App& command, MaterialsView& options) {
-  return {command.add_option("--frequency", options.frequency_GHz, "GHz")
-              ->check(number_from(1.0, 300.0))
+  return {add_number(command, "--frequency", options.frequency_GHz, {1.0, 300.0}, "GHz")
               ->capture_default_str(),
-          command.add_option("--polarisation", options.polarisation, "HH or VV")
-              ->check(CLI::IsMember({"HH", "VV"}))
+          add_word(command, "--polarisation", options.polarisation, {"HH", "VV"}, "HH or VV")
               ->capture_default_str()};
 }
 
 std::vector<CLI::Option*> add_rows(CLI::App& command, MaterialsView& options) {
   return {
-      command.add_option("--library", options.library, "Library file (default: the shipped one)")
-          ->type_name(kFileValue),
-      command.add_option("--state", options.state, "State of the surfaces")
-          ->check(CLI::IsMember({"dry", "wet", "dry-snow", "wet-snow"}))
+      add_file(command, "--library", options.library, "Library file (default: the shipped one)"),
+      add_word(command, "--state", options.state, {"dry", "wet", "dry-snow", "wet-snow"},
+               "State of the surfaces")
           ->capture_default_str()};
 }
 
 void add_plot(CLI::App& command, MaterialsView& options, MaterialsPlotOptions& plot) {
-  command.add_option("-o,--output", plot.output, "A file ending in .svg or .png")
-      ->type_name(kFileValue)
-      ->required();
+  add_file(command, "-o,--output", plot.output, "A file ending in .svg or .png")->required();
   command.add_option("NAMES", plot.names, "Materials (default: all)")->type_name(kMaterialValue);
   add_rows(command, options);
   add_view(command, options);
@@ -103,28 +97,26 @@ std::vector<CLI::Option*> add_model_keys(CLI::App& command, MaterialsFitOptions&
           command.add_option("--rms-slope", fit.rms_slope, "Of rough-metal, 0.01 to 1"),
           command.add_option("--temperature-C", fit.temperature_C,
                              "Of the medium of oh1992, C, -50 to 60"),
-          command.add_option("--angles", fit.angles, "Grazing angles of a model's fit")
-              ->check(CLI::IsMember({"standard", "steep", "to-normal"}))
+          add_word(command, "--angles", fit.angles, {"standard", "steep", "to-normal"},
+                   "Grazing angles of a model's fit")
               ->capture_default_str()};
 }
 
 void add_fit(CLI::App& command, MaterialsOptions& options) {
   MaterialsFitOptions& fit = options.fit;
   CLI::Option* model =
-      command
-          .add_option("--model", fit.model,
-                      "With the options that the keys of a library row are called after")
-          ->check(CLI::IsMember(
-              {"constant-gamma", "kulemin", "git-land", "nrl-sea", "oh1992", "rough-metal"}));
+      add_word(command, "--model", fit.model,
+               {"constant-gamma", "kulemin", "git-land", "nrl-sea", "oh1992", "rough-metal"},
+               "With the options that the keys of a library row are called after");
   for (CLI::Option* key : add_model_keys(command, fit)) key->needs(model);
   for (CLI::Option* view : add_view(command, options.view)) view->needs(model);
-  CLI::Option* csv = command.add_option(
-      "--csv", fit.csv, "Measurements: a CSV file with the columns grazing_deg and sigma0_dB");
-  csv->type_name(kFileValue);
-  CLI::Option* library = command.add_option(
-      "--library", options.view.library,
-      "Print a library's text with all fits made again (default file: the shipped one)");
-  library->expected(0, 1)->type_name(kFileValue);
+  CLI::Option* csv =
+      add_file(command, "--csv", fit.csv,
+               "Measurements: a CSV file with the columns grazing_deg and sigma0_dB");
+  CLI::Option* library =
+      add_file(command, "--library", options.view.library,
+               "Print a library's text with all fits made again (default file: the shipped one)")
+          ->expected(0, 1);
   model->excludes(csv)->excludes(library);
   csv->excludes(library);
   command.add_flag("--json", options.view.json, "As JSON")->excludes(library);
@@ -152,8 +144,7 @@ CLI::App& declare_materials(CLI::App& program, MaterialsOptions& options) {
       *list.add_subcommand("fit", "Fit a, b, c to a model, a table, or a whole library again");
   add_fit(fit, options);
   CLI::App& objects = *list.add_subcommand("objects", "Radar cross-sections of typical objects");
-  objects.add_option("--library", view.library, "Object library (default: the shipped one)")
-      ->type_name(kFileValue);
+  add_file(objects, "--library", view.library, "Object library (default: the shipped one)");
   objects.callback([&options] { options.task = Task::objects; });
   // Options of the list stand behind the subcommand where they mean something to it.
   for (CLI::App* subcommand : {&plot, &fit, &objects})

@@ -6,11 +6,10 @@
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
-#include "apps/number_check.h"
+#include "apps/option_kinds.h"
 #include "apps/option_lists.h"
 #include "apps/plan_table.h"
 #include "apps/scene_choice.h"
-#include "apps/value_words.h"
 #include "core/parallel.h"
 #include "core/text.h"
 #include "scenes/scene.h"
@@ -58,8 +57,8 @@ CLI::App& declare_plan(CLI::App& program, PlanOptions& options) {
                     std::string("Frames for --per-frame and --measure: ") + kFramesText)
       ->default_str("all");
   add_threads_option(command, options.threads);
-  command.add_option("--repetitions", options.repetitions, "Of each measured frame")
-      ->check(whole_number_from(1, 10000))
+  add_whole_number(command, "--repetitions", options.repetitions, {1, 10000},
+                   "Of each measured frame")
       ->needs(measure)
       ->group("");  // for tests and the impatient: a cost that is told elsewhere wants 20
   command.callback([&options] {

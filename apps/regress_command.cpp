@@ -8,10 +8,9 @@
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
-#include "apps/number_check.h"
+#include "apps/option_kinds.h"
 #include "apps/render_command.h"
 #include "apps/scene_choice.h"
-#include "apps/value_words.h"
 #include "core/text.h"
 #include "measure/regress/report.h"
 #include "measure/regress/run.h"
@@ -49,14 +48,10 @@ constexpr const char* kOutputHelp = "Folder of results (default out/regress/<sui
 void add_run(CLI::App& regress, RegressOptions& options) {
   CLI::App& command = *regress.add_subcommand(
       "run", "Render the suite's cases, compare with the approved pictures and report");
-  command.add_option("SUITE", options.suite, "TOML file (docs/regression.md)")
-      ->type_name(kFileValue)
-      ->required();
+  add_file(command, "SUITE", options.suite, "TOML file (docs/regression.md)")->required();
   add_output_option(command, options.output, kOutputHelp);
-  command
-      .add_option("--junit", options.junit,
-                  "File for the JUnit XML (default junit.xml in the folder of results)")
-      ->type_name(kFileValue);
+  add_file(command, "--junit", options.junit,
+           "File for the JUnit XML (default junit.xml in the folder of results)");
   command.add_flag(
       "--html,!--no-html", options.page,
       "Write report.html with the pictures that differ (the default), or leave it out");
@@ -69,9 +64,7 @@ void add_run(CLI::App& regress, RegressOptions& options) {
 CLI::App& add_approve(CLI::App& regress, ApproveOptions& options) {
   CLI::App& command = *regress.add_subcommand(
       "approve", "Take the pictures of the last run as the approved ones, and keep the reason");
-  command.add_option("SUITE", options.suite, "TOML file (docs/regression.md)")
-      ->type_name(kFileValue)
-      ->required();
+  add_file(command, "SUITE", options.suite, "TOML file (docs/regression.md)")->required();
   command
       .add_option("--reason", options.reason,
                   "Why the new pictures are right; stands beside them in approval.json")

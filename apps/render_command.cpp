@@ -8,12 +8,11 @@
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
-#include "apps/number_check.h"
+#include "apps/option_kinds.h"
 #include "apps/option_lists.h"
 #include "apps/progress.h"
 #include "apps/render_summary.h"
 #include "apps/stop_on_signals.h"
-#include "apps/value_words.h"
 #include "core/errors.h"
 #include "core/parallel.h"
 #include "core/stop.h"
@@ -30,27 +29,22 @@ namespace {
 
 void add_sampling(CLI::App& command, RenderOptions& options) {
   CLI::Option* rays =
-      command
-          .add_option(
-              "--rays-per-cell", options.rays_per_cell,
-              "Rays per range cell and column, or azimuth slices per column (fractions: the "
-              "next whole number, with fewer rays for bounces): more is sharper and slower "
-              "(default: the scene's accuracy, else " +
-                  core::number_text(renderer::kDefaultRaysPerCell) + " rays or " +
-                  core::number_text(renderer::kDefaultSlicesPerColumn) + " slices)")
-          ->check(number_from(renderer::kSamplesPerCell));
+      add_number(command, "--rays-per-cell", options.rays_per_cell, renderer::kSamplesPerCell,
+                 "Rays per range cell and column, or azimuth slices per column (fractions: the "
+                 "next whole number, with fewer rays for bounces): more is sharper and slower "
+                 "(default: the scene's accuracy, else " +
+                     core::number_text(renderer::kDefaultRaysPerCell) + " rays or " +
+                     core::number_text(renderer::kDefaultSlicesPerColumn) + " slices)");
   CLI::Option* accuracy = add_accuracy_option(
       command, options.accuracy_grey,
       "Error allowed, RMS in grey levels: half of it is for effects left out, half for sampling, "
       "which is refined frame by frame until its estimate says so; with --rays-per-cell for "
       "effects alone (one grey level is 0.24 dB with the default display; default: the scene's)");
   CLI::Option* budget =
-      command
-          .add_option("--time-budget", options.time_budget_ms,
-                      "Milliseconds a frame may take from pose to pictures in memory (16 Hz: "
-                      "62.5): the finest sampling that fits, and the error it reaches; with "
-                      "--accuracy no finer than that needs (default: the scene's)")
-          ->check(number_from(renderer::kTimeBudgets_ms))
+      add_number(command, "--time-budget", options.time_budget_ms, renderer::kTimeBudgets_ms,
+                 "Milliseconds a frame may take from pose to pictures in memory (16 Hz: "
+                 "62.5): the finest sampling that fits, and the error it reaches; with "
+                 "--accuracy no finer than that needs (default: the scene's)")
           ->excludes(rays);
   CLI::Option* estimate =
       command.add_flag("--estimate-error", options.estimate_error,
@@ -71,12 +65,9 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
       ->excludes(accuracy)
       ->excludes(budget)
       ->excludes(estimate);
-  command
-      .add_option(
-          "--realisation", options.realisation,
-          "mean: expected power, and so without --effects +speckle or +swerling; sample: one "
-          "draw with speckle, noise and fluctuating targets (default: the scene's)")
-      ->check(CLI::IsMember({"mean", "sample"}));
+  add_word(command, "--realisation", options.realisation, {"mean", "sample"},
+           "mean: expected power, and so without --effects +speckle or +swerling; sample: one "
+           "draw with speckle, noise and fluctuating targets (default: the scene's)");
   add_seed_option(command, options.seed);
   command.callback([&options] {
     if (options.reference && options.caster == name_of(renderer::CasterWish::profile))
@@ -110,17 +101,16 @@ CLI::App& declare_render(CLI::App& program, RenderOptions& options) {
   command.add_flag("--overwrite", options.overwrite,
                    "Write to a folder that holds other files too: frames of other renders there "
                    "are removed, other files stay (a run's own record is always replaced)");
-  command.add_option("--preview-format", options.preview_format, "Form of the preview")
-      ->check(CLI::IsMember(std::vector<std::string>(session::kPreviewFormats.begin(),
-                                                     session::kPreviewFormats.end())))
+  add_word(
+      command, "--preview-format", options.preview_format,
+      std::vector<std::string>(session::kPreviewFormats.begin(), session::kPreviewFormats.end()),
+      "Form of the preview")
       ->default_str(session::SequenceSettings{}.preview_format);
-  command
-      .add_option("--range-unit", options.range_unit,
-                  "Of the range scale of figure and ppi_figure (default: km for sensors that see "
-                  "beyond 2 km, else "
-                  "m)")
-      ->check(CLI::IsMember(
-          std::vector<std::string>(session::kRangeUnits.begin(), session::kRangeUnits.end())));
+  add_word(command, "--range-unit", options.range_unit,
+           std::vector<std::string>(session::kRangeUnits.begin(), session::kRangeUnits.end()),
+           "Of the range scale of figure and ppi_figure (default: km for sensors that see "
+           "beyond 2 km, else "
+           "m)");
   return command;
 }
 

@@ -6,10 +6,9 @@
 
 #include "apps/command_line.h"
 #include "apps/commands.h"
-#include "apps/number_check.h"
+#include "apps/option_kinds.h"
 #include "apps/progress.h"
 #include "apps/track_inputs.h"
-#include "apps/value_words.h"
 #include "scenes/highway_reader.h"
 #include "session/signal/tracks/own_tracks.h"
 #include "session/signal/tracks/scenario_record.h"
@@ -22,79 +21,58 @@ namespace {
 namespace fs = std::filesystem;
 
 void add_own_data(CLI::App& command, TrackOptions& options) {
-  command
-      .add_option("--radar", options.radar_file,
-                  "TOML file of the radar (docs/fmcw.md) that a scene is seen by or that recorded "
-                  "samples or detections (default: the scene's, or radar.toml in the folder)")
-      ->type_name(kFileValue);
+  add_file(command, "--radar", options.radar_file,
+           "TOML file of the radar (docs/fmcw.md) that a scene is seen by or that recorded "
+           "samples or detections (default: the scene's, or radar.toml in the folder)");
   add_frames_option(command, options.frames, "Of a scene, A:B[:STEP] (default: all)");
   command.add_option("--sensor", options.sensor, "Of a scene, instead of its own")
       ->type_name(kSensorValue);
-  command.add_option("--data", options.data, "Folder of terrain data, of a scene")
-      ->type_name(kFolderValue);
-  command
-      .add_option("--radar-speed", options.radar_speed_mps,
-                  "m/s forward, which tells what moves (default: as the scene, JSON of detections "
-                  "or, for tables and samples, the run.json of fanbeam fmcw in the folder above "
-                  "them tell, else 0)")
-      ->check(number_from(-1000.0, 1000.0));
-  command
-      .add_option(
-          "--frame-period", options.frame_period_s,
-          "Seconds from frame to frame of samples (default: as the run.json of fanbeam fmcw "
-          "beside them tells, else 0.05)")
-      ->check(number_from(1e-6, 3600.0));
-  command
-      .add_option(
-          "--body-errors", options.errors,
-          "How far the echo of a body wanders over it: range in m, speed in m/s, azimuth in "
-          "deg (default 0.3,0.1,1)")
+  add_folder(command, "--data", options.data, "Folder of terrain data, of a scene");
+  add_number(command, "--radar-speed", options.radar_speed_mps, {-1000.0, 1000.0},
+             "m/s forward, which tells what moves (default: as the scene, JSON of detections "
+             "or, for tables and samples, the run.json of fanbeam fmcw in the folder above "
+             "them tell, else 0)");
+  add_number(command, "--frame-period", options.frame_period_s, {1e-6, 3600.0},
+             "Seconds from frame to frame of samples (default: as the run.json of fanbeam fmcw "
+             "beside them tells, else 0.05)");
+  add_number(command, "--body-errors", options.errors, {0.0, 1000.0},
+             "How far the echo of a body wanders over it: range in m, speed in m/s, azimuth in "
+             "deg (default 0.3,0.1,1)")
       ->type_name("M,MPS,DEG")
       ->delimiter(',')
-      ->expected(3)
-      ->check(number_from(0.0, 1000.0));
+      ->expected(3);
 }
 
 // How measurements become tracks, of any input.
 void add_tracker(CLI::App& command, TrackOptions& options) {
-  command
-      .add_option("--association", options.association,
-                  "Measurements to tracks: best assignment, or joint probabilities")
-      ->check(CLI::IsMember({"nearest", "joint"}))
+  add_word(command, "--association", options.association, {"nearest", "joint"},
+           "Measurements to tracks: best assignment, or joint probabilities")
       ->capture_default_str();
-  command
-      .add_option(
-          "--acceleration", options.acceleration_mps2,
-          "m/s2, unknown to the tracker, of targets that drive straight on: 0.5 for steady "
-          "traffic. Braking has a model of its own, but not with --range-only: 4 to 8 there. "
-          "More tells less of who is who after a crossing")
-      ->check(number_from(0.01, 20.0))
+  add_number(command, "--acceleration", options.acceleration_mps2, {0.01, 20.0},
+             "m/s2, unknown to the tracker, of targets that drive straight on: 0.5 for steady "
+             "traffic. Braking has a model of its own, but not with --range-only: 4 to 8 there. "
+             "More tells less of who is who after a crossing")
       ->capture_default_str();
-  command
-      .add_option("--coast", options.coast_s, "Seconds that a track lives without a measurement")
-      ->check(number_from(0.0, 60.0))
+  add_number(command, "--coast", options.coast_s, {0.0, 60.0},
+             "Seconds that a track lives without a measurement")
       ->capture_default_str();
 }
 
 // Of highway scenarios.
 void add_simulation(CLI::App& command, TrackOptions& options) {
-  command
-      .add_option(
-          "--waveform", options.scheme,
-          "How beats become ranges and speeds: one triangle (all pairs, with ghosts; or "
-          "pairs in order), two slopes, two stages, or a coded stretch between two ramps (default "
-          "two-stage, or what the scenario names); ramps as the file has them")
-      ->check(CLI::IsMember({"triangle", "sorted-triangle", "two-slopes", "two-stage", "coded"}));
-  command
-      .add_option("--detection-probability", options.detection_probability,
-                  "Of each target in each frame")
-      ->check(number_from(0.0, 1.0))
+  add_word(command, "--waveform", options.scheme,
+           {"triangle", "sorted-triangle", "two-slopes", "two-stage", "coded"},
+           "How beats become ranges and speeds: one triangle (all pairs, with ghosts; or "
+           "pairs in order), two slopes, two stages, or a coded stretch between two ramps (default "
+           "two-stage, or what the scenario names); ramps as the file has them");
+  add_number(command, "--detection-probability", options.detection_probability, {0.0, 1.0},
+             "Of each target in each frame")
       ->capture_default_str();
-  command.add_option("--false-measurements", options.false_per_frame, "Mean number in a frame")
-      ->check(number_from(0.0, 100.0))
+  add_number(command, "--false-measurements", options.false_per_frame, {0.0, 100.0},
+             "Mean number in a frame")
       ->capture_default_str();
-  command.add_option("--noise-figure", options.noise_figure_dB, "dB, instead of the file's")
-      ->check(number_from(0.0, 60.0));
+  add_number(command, "--noise-figure", options.noise_figure_dB, {0.0, 60.0},
+             "dB, instead of the file's");
   command.add_flag("--range-only", options.range_only,
                    "One receiver without azimuth: tracks of range and range rate alone");
   CLI::Option* samples = command.add_flag(
@@ -102,8 +80,7 @@ void add_simulation(CLI::App& command, TrackOptions& options) {
       "Measure from beat samples and noise (two stages) instead of from frequencies");
   samples->excludes("--waveform")->excludes("--detection-probability");
   samples->excludes("--false-measurements")->excludes("--range-only");
-  command.add_option("--run", options.run, "Another draw of the same seed")
-      ->check(whole_number_from(0, 1000000))
+  add_whole_number(command, "--run", options.run, {0, 1000000}, "Another draw of the same seed")
       ->capture_default_str();
 }
 
@@ -116,8 +93,8 @@ void add_study(CLI::App& command, TrackOptions& options) {
       "with --samples the families alone, from samples (a quarter of an hour); needs gnuplot");
   for (const char* studied : {"--waveform", "--association", "--plots", "--run"})
     study->excludes(studied);
-  command.add_option("--draws", options.family_draws, "Of each family of a study")
-      ->check(whole_number_from(1, 10000))
+  add_whole_number(command, "--draws", options.family_draws, {1, 10000},
+                   "Of each family of a study")
       ->needs(study)
       ->capture_default_str();
 }
