@@ -13,7 +13,7 @@ struct Example {
 };
 
 // Of a command by its path, "materials plot", or of the program itself, "".
-const std::vector<Example>& examples_of(std::string_view command);
+std::vector<Example> examples_of(std::string_view command);
 
 struct ExitCode {
   std::string codes;    // "130 or 143"
