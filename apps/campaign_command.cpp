@@ -275,21 +275,9 @@ int slurm(const CampaignOptions& options, const CommonOptions& common, const Cam
 
 int campaign(const CampaignOptions& options, const CommonOptions& common) {
   const Campaign campaign = read_checked(options, common);
-  switch (options.task) {
-    case CampaignTask::plan:
-      return plan_campaign(options, common, campaign);
-    case CampaignTask::run:
-      return run(options, common, campaign);
-    case CampaignTask::status:
-      return status(options, common, campaign);
-    case CampaignTask::merge:
-      return merge(options, common, campaign);
-    case CampaignTask::verify:
-      return verify(options, common, campaign);
-    case CampaignTask::slurm:
-      return slurm(options, common, campaign);
-  }
-  return kExitBug;
+  using Work = int (*)(const CampaignOptions&, const CommonOptions&, const Campaign&);
+  constexpr Work kWorks[] = {plan_campaign, run, status, merge, verify, slurm};  // as CampaignTask
+  return kWorks[static_cast<std::size_t>(options.task)](options, common, campaign);
 }
 
 }  // namespace

@@ -272,7 +272,8 @@ int print_library_again(const MaterialsView& options) {
   return kExitDone;
 }
 
-int list_materials(const MaterialsView& options) {
+int list_materials(const MaterialsOptions& all) {
+  const MaterialsView& options = all.view;
   const materials::MaterialLibrary library = read_library(options);
   const std::vector<MaterialRow> rows = rows_of(library, options);
   if (options.json) {
@@ -295,7 +296,9 @@ int list_materials(const MaterialsView& options) {
   return kExitDone;
 }
 
-int plot_materials(const MaterialsView& options, const MaterialsPlotOptions& plot) {
+int plot_materials(const MaterialsOptions& all) {
+  const MaterialsView& options = all.view;
+  const MaterialsPlotOptions& plot = all.plot;
   constexpr int kPlaces = 400;
   const materials::MaterialLibrary library = read_library(options);
   core::ProblemList problems;
@@ -333,7 +336,9 @@ int plot_materials(const MaterialsView& options, const MaterialsPlotOptions& plo
   return kExitDone;
 }
 
-int fit_materials(const MaterialsView& options, const MaterialsFitOptions& fit) {
+int fit_materials(const MaterialsOptions& all) {
+  const MaterialsView& options = all.view;
+  const MaterialsFitOptions& fit = all.fit;
   if (fit.whole_library) return print_library_again(options);
   const materials::PhongFit result = materials::fit_phong(
       fit.csv.empty() ? samples_of_model(options, fit) : samples_of_file(fit.csv));
@@ -352,18 +357,13 @@ int fit_materials(const MaterialsView& options, const MaterialsFitOptions& fit) 
   return kExitDone;
 }
 
+int show_objects(const MaterialsOptions& all) { return list_objects(all.view.library); }
+
 int materials(const MaterialsOptions& options, const CommonOptions&) {
-  switch (options.task) {
-    case MaterialsOptions::Task::plot:
-      return plot_materials(options.view, options.plot);
-    case MaterialsOptions::Task::fit:
-      return fit_materials(options.view, options.fit);
-    case MaterialsOptions::Task::objects:
-      return list_objects(options.view.library);
-    case MaterialsOptions::Task::list:
-      break;
-  }
-  return list_materials(options.view);
+  using Work = int (*)(const MaterialsOptions&);
+  constexpr Work kWorks[] = {list_materials, plot_materials, fit_materials,
+                             show_objects};  // as Task
+  return kWorks[static_cast<std::size_t>(options.task)](options);
 }
 
 }  // namespace
