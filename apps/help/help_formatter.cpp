@@ -10,18 +10,11 @@ namespace {
 constexpr std::size_t kHelpWidth = 80;
 constexpr std::size_t kLead = 26;
 
-// Paragraphs are parted by a blank line; single line ends are only where the source was wrapped.
-std::string paragraphs(const std::string& text) {
+// The text on lines of the help's width; nothing of none.
+std::string lines_of(const std::string& text) {
   std::string all;
-  for (std::size_t from = 0; from < text.size();) {
-    const std::size_t end = std::min(text.find("\n\n", from), text.size());
-    std::string paragraph = text.substr(from, end - from);
-    for (char& letter : paragraph)
-      if (letter == '\n') letter = ' ';
-    if (!all.empty()) all += '\n';
-    for (const std::string& line : wrapped(paragraph, kHelpWidth)) all += line + '\n';
-    from = end + 2;
-  }
+  if (text.empty()) return all;
+  for (const std::string& line : wrapped(text, kHelpWidth)) all += line + '\n';
   return all;
 }
 
@@ -42,7 +35,7 @@ std::string exit_codes_text(const CLI::App& command) {
   std::string text;
   for (const ExitCode& code : exit_codes_of(key_of(command)))
     text += (text.empty() ? "Exit codes: " : ", ") + code.codes + " " + code.meaning;
-  return paragraphs(text);
+  return lines_of(text);
 }
 
 }  // namespace
@@ -53,7 +46,7 @@ HelpFormatter::HelpFormatter() {
 }
 
 std::string HelpFormatter::make_description(const CLI::App* command) const {
-  return paragraphs(command->get_description()) + "\n";
+  return lines_of(command->get_description()) + "\n";
 }
 
 std::string HelpFormatter::make_option(const CLI::Option* option, bool) const {
@@ -78,9 +71,9 @@ std::string HelpFormatter::make_expanded(const CLI::App* group) const {
 
 std::string HelpFormatter::make_footer(const CLI::App* command) const {
   const std::string footer =
-      paragraphs(command->get_parent() == nullptr
-                     ? "\"fanbeam help COMMAND\" tells how a command is used, with examples."
-                     : command->get_footer());
+      lines_of(command->get_parent() == nullptr
+                   ? "\"fanbeam help COMMAND\" tells how a command is used, with examples."
+                   : command->get_footer());
   return footer + (footer.empty() ? "" : "\n") + exit_codes_text(*command);
 }
 

@@ -40,17 +40,6 @@ std::string italic(std::string_view text) { return "\\fI" + plain(text) + "\\fR"
 
 std::string section(const std::string& heading) { return ".SH " + heading + "\n"; }
 
-// What each paragraph of `text` begins with is a macro: blank lines are none of roff's business.
-std::string roff_paragraphs(const std::string& text) {
-  std::string roff;
-  for (std::size_t from = 0; from < text.size();) {
-    const std::size_t end = std::min(text.find("\n\n", from), text.size());
-    roff += (from == 0 ? "" : ".PP\n") + plain(text.substr(from, end - from)) + "\n";
-    from = end + 2;
-  }
-  return roff;
-}
-
 std::string tagged(const std::string& tag, std::string_view text) {
   return ".TP\n" + tag + "\n" + plain(text) + "\n";
 }
@@ -146,8 +135,8 @@ std::string man_page(const CLI::App& command) {
   page += section("NAME") + plain(page_name(command)) + " \\- " +
           (is_program ? "renderer of imaging millimetre\\-wave radar" : plain(description)) + "\n";
   page += synopsis(command) + section("DESCRIPTION") +
-          roff_paragraphs(description + (description.ends_with('.') ? "" : "."));
-  if (!command.get_footer().empty()) page += ".PP\n" + roff_paragraphs(command.get_footer());
+          plain(description + (description.ends_with('.') ? "" : ".")) + "\n";
+  if (!command.get_footer().empty()) page += ".PP\n" + plain(command.get_footer()) + "\n";
   page += commands_section(command) + options_sections(command) + notes_sections(command);
   page += section("ENVIRONMENT") +
           tagged(bold("FANBEAM_DATA"), "Folder with terrain and flight data of scenes");
