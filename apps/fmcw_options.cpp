@@ -79,11 +79,17 @@ void add_receiver(CLI::App& command, FmcwOptions& options) {
              "stronger saturates");
 }
 
+// What `read` makes of a word, which is checked before.
+template <class Value, class Read>
+CLI::Option* add_choice(CLI::App& command, const char* name, Value& value, Read read,
+                        const std::string& what) {
+  return command.add_option_function<std::string>(
+      name, [&value, read](const std::string& word) { value = *read(word); }, what);
+}
+
 void add_window(CLI::App& command, const char* name, signal::Window& window, const char* what) {
-  command
-      .add_option_function<std::string>(
-          name, [&window](const std::string& text) { window = *signal::window_of(text); },
-          std::string(what) + " (default " + signal::name(window) + ")")
+  add_choice(command, name, window, signal::window_of,
+             std::string(what) + " (default " + signal::name(window) + ")")
       ->type_name("WINDOW")
       ->check(CLI::Validator(
           [](std::string& text) {
@@ -118,24 +124,17 @@ void add_processing(CLI::App& command, FmcwOptions& options) {
       command, "--angle-window", options.angle_window,
       "Over the channels, for the beams of cube, range-azimuth and top-view, not for detections "
       "or what --angle-method capon makes; of arrays on a line at one pitch alone");
-  command
-      .add_option_function<std::string>(
-          "--mitigation",
-          [&options](const std::string& word) {
-            options.mitigation = *signal::mitigation_of(word);
-          },
-          "Of samples that other radars' chirps cross ([[interferer]] of the scene): set to 0, or "
-          "filled from the rest of the chirp (default none)")
+  add_choice(
+      command, "--mitigation", options.mitigation, signal::mitigation_of,
+      "Of samples that other radars' chirps cross ([[interferer]] of the scene): set to 0, or "
+      "filled from the rest of the chirp (default none)")
       ->check(CLI::IsMember({"none", "zero", "interpolate"}));
 }
 
 void add_detector(CLI::App& command, FmcwOptions& options) {
-  command
-      .add_option_function<std::string>(
-          "--cfar",
-          [&options](const std::string& word) { options.cfar = *session::cfar_kind(word); },
-          "Detector: mean of the cells around (ca), ordered statistic (os), greater (go) or "
-          "smaller (so) of two halves' means (default os)")
+  add_choice(command, "--cfar", options.cfar, session::cfar_kind,
+             "Detector: mean of the cells around (ca), ordered statistic (os), greater (go) or "
+             "smaller (so) of two halves' means (default os)")
       ->check(CLI::IsMember({"ca", "os", "go", "so"}));
   add_span(command, "--cfar-guard", options.cfar_guard,
            "Cells on each side that it leaves out, over the windows' main lobe");
@@ -147,16 +146,11 @@ void add_detector(CLI::App& command, FmcwOptions& options) {
 }
 
 void add_detections(CLI::App& command, FmcwOptions& options) {
-  command
-      .add_option_function<std::string>(
-          "--angle-method",
-          [&options](const std::string& word) {
-            options.angle_method = *signal::angle_method(word);
-          },
-          "Directions of a cell: the strongest beam; capon and music, of four channels or more "
-          "on a line at one pitch (arrays in two dimensions have beamforming alone), tell two "
-          "inside a beamwidth apart, capon sharpens the range-azimuth map too (default "
-          "beamforming)")
+  add_choice(command, "--angle-method", options.angle_method, signal::angle_method,
+             "Directions of a cell: the strongest beam; capon and music, of four channels or more "
+             "on a line at one pitch (arrays in two dimensions have beamforming alone), tell two "
+             "inside a beamwidth apart, capon sharpens the range-azimuth map too (default "
+             "beamforming)")
       ->check(CLI::IsMember({"beamforming", "capon", "music"}));
   add_number(command, "--cluster-place", options.cluster_place_m, {1e-3, 1000.0},
              "Metres within which detections are neighbours (default: four widths of the "
