@@ -152,6 +152,45 @@ void warn_of_change(const Campaign& campaign, const CommonOptions& common) {
   print_problems(problems.all());
 }
 
+struct Made {
+  int made = 0, elsewhere = 0, there = 0;
+  std::vector<int> failed;
+};
+
+Made make_runs(datasets::Worker& worker, const std::vector<int>& runs, const fs::path& output,
+               const CommonOptions& common, const Campaign& campaign) {
+  Made counts;
+  bool tells_change = !common.quiet;  // once
+  Progress progress(campaign.name, static_cast<int>(runs.size()), common.quiet, "runs");
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    core::throw_if_stopped();
+    const datasets::RunEnd end = worker.make(runs[i]);
+    if (!common.quiet) print_problems(worker.new_warnings());
+    switch (end) {
+      case datasets::RunEnd::made:
+        ++counts.made;
+        break;
+      case datasets::RunEnd::elsewhere:
+        ++counts.elsewhere;
+        break;
+      case datasets::RunEnd::failed:
+        counts.failed.push_back(runs[i]);
+        spdlog::error("run {} failed: {}", runs[i],
+                      datasets::failed_file(output, runs[i]).string());
+        break;
+      case datasets::RunEnd::there:
+        ++counts.there;
+        if (tells_change && datasets::was_made_by_other_file(campaign, output, runs[i])) {
+          warn_of_change(campaign, common);
+          tells_change = false;
+        }
+        break;
+    }
+    progress.step(static_cast<int>(i) + 1);
+  }
+  return counts;
+}
+
 int run(const CampaignOptions& options, const CommonOptions& common, const Campaign& campaign) {
   const core::ThreadLimit threads(options.threads);
   const fs::path output = folder_of(options.output, campaign);
@@ -159,46 +198,13 @@ int run(const CampaignOptions& options, const CommonOptions& common, const Campa
       campaign, datasets::shard_of(chosen_runs(options, campaign), options.shard, "--shard"));
   datasets::Worker worker(campaign,
                           {output, shipped_folder(), data_folders(options.data), options.replace});
-  int made = 0, elsewhere = 0, there = 0;
-  bool tells_change = !common.quiet;  // once
-  std::vector<int> failed;
   const StopOnSignals stop_on_signals;
-  try {
-    Progress progress(campaign.name, static_cast<int>(runs.size()), common.quiet, "runs");
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      core::throw_if_stopped();
-      const datasets::RunEnd end = worker.make(runs[i]);
-      if (!common.quiet) print_problems(worker.new_warnings());
-      switch (end) {
-        case datasets::RunEnd::made:
-          ++made;
-          break;
-        case datasets::RunEnd::elsewhere:
-          ++elsewhere;
-          break;
-        case datasets::RunEnd::failed:
-          failed.push_back(runs[i]);
-          spdlog::error("run {} failed: {}", runs[i],
-                        datasets::failed_file(output, runs[i]).string());
-          break;
-        case datasets::RunEnd::there:
-          ++there;
-          if (tells_change && datasets::was_made_by_other_file(campaign, output, runs[i])) {
-            warn_of_change(campaign, common);
-            tells_change = false;
-          }
-          break;
-      }
-      progress.step(static_cast<int>(i) + 1);
-    }
-  } catch (const core::Stopped&) {
-    return end_by_stop_signal();
-  }
+  const Made counts = make_runs(worker, runs, output, common, campaign);
   if (!common.quiet)
-    fmt::print("{} of {} runs made, {} there before, {} made by others now, {} failed: {}\n", made,
-               runs.size(), there, elsewhere, failed.size(),
+    fmt::print("{} of {} runs made, {} there before, {} made by others now, {} failed: {}\n",
+               counts.made, runs.size(), counts.there, counts.elsewhere, counts.failed.size(),
                fs::absolute(output).lexically_normal().string());
-  return failed.empty() ? kExitDone : kExitInvalidInput;
+  return counts.failed.empty() ? kExitDone : kExitInvalidInput;
 }
 
 int status(const CampaignOptions& options, const CommonOptions& common, const Campaign& campaign) {

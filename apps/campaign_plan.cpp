@@ -4,7 +4,6 @@
 
 #include "apps/stop_on_signals.h"
 #include "core/parallel.h"
-#include "core/stop.h"
 #include "datasets/pilot.h"
 
 namespace fanbeam::apps {
@@ -66,15 +65,11 @@ int plan_campaign(const CampaignOptions& options, const CommonOptions& common,
   if (options.pilot) {
     const StopOnSignals stop_on_signals;
     const core::ThreadLimit threads(options.threads);
-    try {
-      const datasets::PilotFigures pilot =
-          datasets::fly_pilot(campaign, drawn, {{}, shipped_folder(), data_folders(options.data)});
-      if (!common.quiet) print_problems(pilot.warnings);
-      print_pilot(pilot, drawn, core::ThreadLimit::threads());
-      all_fly = pilot.refused.empty() && all_fly;
-    } catch (const core::Stopped&) {
-      return end_by_stop_signal();
-    }
+    const datasets::PilotFigures pilot =
+        datasets::fly_pilot(campaign, drawn, {{}, shipped_folder(), data_folders(options.data)});
+    if (!common.quiet) print_problems(pilot.warnings);
+    print_pilot(pilot, drawn, core::ThreadLimit::threads());
+    all_fly = pilot.refused.empty() && all_fly;
   }
   return all_fly ? kExitDone : kExitInvalidInput;
 }

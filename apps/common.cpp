@@ -11,7 +11,9 @@
 #include <iostream>
 #include <system_error>
 
+#include "apps/stop_on_signals.h"
 #include "core/files.h"
+#include "core/stop.h"
 #include "session/shipped.h"
 
 namespace fanbeam::apps {
@@ -88,6 +90,8 @@ int run_guarded(const std::function<int()>& command) {
   } catch (const core::InputError& error) {
     print_problems(error.problems());
     return exit_code_of(error.problems());
+  } catch (const core::Stopped&) {
+    return end_by_stop_signal();
   } catch (const std::system_error& error) {  // of files, of printing to a full disk, of threads
     std::cerr << "fanbeam: E-IO: " << error.what() << '\n';
     return kExitIo;

@@ -59,7 +59,8 @@ void print_problems(std::vector<core::Problem> problems);
 // kExitInvalidInput.
 int exit_code_of(const std::vector<core::Problem>& problems);
 
-// Runs a command and turns its exceptions into messages and exit codes.
+// Runs a command and turns its exceptions into messages and exit codes; core::Stopped ends the process by the signal
+// that asked for it.
 int run_guarded(const std::function<int()>& command);
 
 }  // namespace fanbeam::apps

@@ -12,7 +12,6 @@
 #include "apps/progress.h"
 #include "apps/stop_on_signals.h"
 #include "core/parallel.h"
-#include "core/stop.h"
 #include "session/signal/fmcw_sequence.h"
 #include "session/signal/radar_file.h"
 #include "session/signal/signal_session.h"
@@ -88,16 +87,12 @@ int fmcw(FmcwOptions& options, const CommonOptions& common) {
   const auto scene = session::Session(description, session::signal_setup(build), problems).scene();
   if (!common.quiet) print_problems(problems.all());
   const StopOnSignals stop_on_signals;
-  try {
-    const session::FmcwSequenceSettings settings = sequence_of(options);
-    std::optional<Progress> bar;
-    const auto progress = frames_progress(bar, scene->description.name, common.quiet);
-    const session::FmcwSequence sequence = session::run_fmcw(*scene, settings, progress);
-    bar.reset();
-    if (!common.quiet) print_summary(sequence);
-  } catch (const core::Stopped&) {
-    return end_by_stop_signal();
-  }
+  const session::FmcwSequenceSettings settings = sequence_of(options);
+  std::optional<Progress> bar;
+  const auto progress = frames_progress(bar, scene->description.name, common.quiet);
+  const session::FmcwSequence sequence = session::run_fmcw(*scene, settings, progress);
+  bar.reset();
+  if (!common.quiet) print_summary(sequence);
   return kExitDone;
 }
 
