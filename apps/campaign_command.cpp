@@ -203,7 +203,7 @@ int run(const CampaignOptions& options, const CommonOptions& common, const Campa
   if (!common.quiet)
     fmt::print("{} of {} runs made, {} there before, {} made by others now, {} failed: {}\n",
                counts.made, runs.size(), counts.there, counts.elsewhere, counts.failed.size(),
-               fs::absolute(output).lexically_normal().string());
+               full_path(output));
   return counts.failed.empty() ? kExitDone : kExitInvalidInput;
 }
 
@@ -227,8 +227,7 @@ int merge(const CampaignOptions& options, const CommonOptions& common, const Cam
   const datasets::Merged merged = datasets::merge(campaign, output);
   if (common.quiet) return kExitDone;
   fmt::print("{} of {} runs, {} frames\n", merged.runs, campaign.runs, merged.frames);
-  for (const fs::path& file : merged.files)
-    fmt::print("{}\n", fs::absolute(file).lexically_normal().string());
+  for (const fs::path& file : merged.files) fmt::print("{}\n", full_path(file));
   const auto names_pictures = [](const fs::path& file) { return file.filename() == "coco.json"; };
   if (campaign.archives && std::any_of(merged.files.begin(), merged.files.end(), names_pictures))
     fmt::print(

@@ -47,7 +47,9 @@ std::vector<fs::path> data_folders(const std::string& from_command_line) {
   return folders;
 }
 
-fs::path find_scene(const std::string& name) { return session::find_scene(name, shipped_folder()); }
+std::string full_path(const fs::path& path) {
+  return fs::absolute(path).lexically_normal().string();
+}
 
 void refuse_output_among(const std::vector<fs::path>& inputs, const fs::path& output,
                          const std::string& option) {

@@ -41,9 +41,8 @@ void check_data_folder(const std::string& from_command_line, core::ProblemList& 
 // InputError E-IO when the first is no folder.
 std::vector<std::filesystem::path> data_folders(const std::string& from_command_line);
 
-// A folder, a scene.toml, or the name of a shipped scene ("braunschweig-26",
-// "scenes/braunschweig-26").
-std::filesystem::path find_scene(const std::string& name);
+// As people are told where a file lies.
+std::string full_path(const std::filesystem::path& path);
 
 // Throws InputError E-PATH of the option (exit code 2) where an output is one of what a command reads, or lies in one
 // that is a folder; links are followed. Of an empty path nothing is said.

@@ -33,8 +33,7 @@ void add_data_option(CLI::App& command, std::string& folder, const std::string& 
 }
 
 void add_seed_option(CLI::App& command, std::uint64_t& seed) {
-  command.add_option("--seed", seed, "Seed of everything random")
-      ->check(any_seed())
+  add_whole_number(command, "--seed", seed, {0, UINT64_MAX}, "Seed of everything random")
       ->capture_default_str();
 }
 

@@ -149,7 +149,7 @@ int cost(const CostOptions& options, const CommonOptions& common) {
   if (common.quiet) return kExitDone;
   fmt::print("measured in {}{}\n{}\n", duration_text(measure::milliseconds_since(begin) * 1e-3),
              options.quick ? " (a quick look: its figures are no measurement)" : "",
-             fs::absolute(folder / "cost.md").lexically_normal().string());
+             full_path(folder / "cost.md"));
   return kExitDone;
 }
 

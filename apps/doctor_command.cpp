@@ -150,9 +150,8 @@ void add_unreached(const scenes::Scene& scene, Findings& findings) {
     worst_frame = frame;
   }
   if (missed == 0) return;
-  findings.insert(
-      std::find_if(findings.begin(), findings.end(),
-                   [](const Finding& finding) { return finding.severity == Severity::note; }),
+  scenes::add_in_order(
+      findings,
       {Severity::delicate, "accuracy-not-reached",
        fmt::format("{} of {} frames miss the {:.3g} grey levels that are for sampling, even at the "
                    "finest",

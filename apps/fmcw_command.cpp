@@ -65,8 +65,7 @@ void print_summary(const session::FmcwSequence& sequence) {
                frame.signal_ms, frame.writing_ms);
   }
   for (const session::ProductPlace& place : sequence.places)
-    fmt::print("{:14} {}\n", place.name,
-               std::filesystem::absolute(place.path).lexically_normal().string());
+    fmt::print("{:14} {}\n", place.name, full_path(place.path));
 }
 
 // Stopped by signals as render is. A radar file that the scene names goes into the options, below those that were

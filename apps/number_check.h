@@ -41,7 +41,4 @@ inline CLI::Validator whole_number_from(std::uint64_t least, std::uint64_t most)
   return {refuse, range};
 }
 
-// Of every --seed.
-inline CLI::Validator any_seed() { return whole_number_from(0, UINT64_MAX); }
-
 }  // namespace fanbeam::apps

@@ -149,7 +149,7 @@ int regress(const RegressOptions& options, const CommonOptions& common) {
   if (!common.quiet || !verdict.all_passed()) {
     fmt::print("{}: {}\n", suite.name, text_of(verdict));
     const fs::path shown = output / (options.page ? "report.html" : "results.json");
-    fmt::print("{:11} {}\n", "report", fs::absolute(shown).lexically_normal().string());
+    fmt::print("{:11} {}\n", "report", full_path(shown));
   }
   if (verdict.failed > 0) {
     core::ProblemList problems;

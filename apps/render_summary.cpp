@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "apps/common.h"
 #include "core/errors.h"
 
 namespace fanbeam::apps {
@@ -61,7 +62,7 @@ void print_render_summary(const session::Sequence& sequence, const scenes::Scene
     fmt::print("  {:14} {:3}  {}\n", name_of(decision.effect), decision.on ? "on" : "off",
                decision.reason);
   for (const session::ProductPlace& place : sequence.places)
-    fmt::print("{:10} {}\n", place.name, fs::absolute(place.path).lexically_normal().string());
+    fmt::print("{:10} {}\n", place.name, full_path(place.path));
 }
 
 }  // namespace fanbeam::apps

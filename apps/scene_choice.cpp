@@ -42,16 +42,15 @@ void add_scene_choice(CLI::App& command, SceneChoice& choice) {
   add_data_option(command, choice.data, kDataOrder);
 }
 
-fs::path find_sensor(const std::string& name) {
-  return session::find_sensor(name, shipped_folder(), "--sensor");
-}
-
 scenes::SceneDescription read_chosen_scene(const SceneChoice& choice, core::ProblemList& problems) {
   core::ProblemList missing;
-  const fs::path scene = tried([&] { return find_scene(choice.scene); }, missing);
-  const fs::path sensor = choice.sensor.empty()
-                              ? fs::path()
-                              : tried([&] { return find_sensor(choice.sensor); }, missing);
+  const fs::path scene =
+      tried([&] { return session::find_scene(choice.scene, shipped_folder()); }, missing);
+  const fs::path sensor =
+      choice.sensor.empty()
+          ? fs::path()
+          : tried([&] { return session::find_sensor(choice.sensor, shipped_folder(), "--sensor"); },
+                  missing);
   const std::vector<fs::path> data = tried([&] { return data_folders(choice.data); }, missing);
   missing.throw_if_errors();
   return scenes::read_scene(scene, {shipped_folder(), data, sensor}, problems);
@@ -60,7 +59,7 @@ scenes::SceneDescription read_chosen_scene(const SceneChoice& choice, core::Prob
 std::vector<fs::path> files_of_scene(const SceneChoice& choice,
                                      const scenes::SceneDescription& scene) {
   std::vector<fs::path> files = session::with_companions(scene.files);
-  const fs::path chosen = find_scene(choice.scene);
+  const fs::path chosen = session::find_scene(choice.scene, shipped_folder());
   std::error_code status;
   files.push_back(fs::is_directory(chosen, status) ? chosen / "scene.toml" : chosen);
   return files;

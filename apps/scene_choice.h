@@ -20,9 +20,6 @@ using session::SceneChoice;
 // SCENE, --sensor and --data.
 void add_scene_choice(CLI::App& command, SceneChoice& choice);
 
-// A sensor file, or the name of a shipped sensor ("hivision-94"). Throws InputError E-IO.
-std::filesystem::path find_sensor(const std::string& name);
-
 // What is wrong with the scene is in `problems`. Throws InputError E-IO for all of scene, sensor
 // and data folder that are not there, and as shipped_folder.
 scenes::SceneDescription read_chosen_scene(const SceneChoice& choice, core::ProblemList& problems);

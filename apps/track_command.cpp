@@ -183,9 +183,7 @@ fs::path output_of(const TrackOptions& options, const std::string& name,
   return folder;
 }
 
-void print_record(const fs::path& file) {
-  fmt::print("record {}\n", fs::absolute(file).lexically_normal().string());
-}
+void print_record(const fs::path& file) { fmt::print("record {}\n", full_path(file)); }
 
 void print(const session::MeasuredSource& source, const session::OwnTracks& tracks) {
   fmt::print("{}: {} frames of {}, {:.1f} detections and {:.1f} measurements a frame\n",

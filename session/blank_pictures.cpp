@@ -11,6 +11,7 @@
 
 #include "core/median.h"
 #include "renderer/frame_renderer.h"
+#include "scenes/doctor/scene_doctor.h"
 #include "sensors/display/display.h"
 #include "sensors/display/grey_scale.h"
 
@@ -185,11 +186,9 @@ void add_blank_pictures(const scenes::Scene& scene, scenes::Findings& findings) 
     const Look look = look_at(sensor, picture);
     if (!look.like_noise && !look.one_grey) continue;
     const auto [why, remedy] = cause(sensor, picture, happened("empty_view"));
-    findings.insert(
-        std::find_if(findings.begin(), findings.end(),
-                     [](const Finding& finding) { return finding.severity != Severity::wrong; }),
-        {Severity::wrong, "blank-picture", what_is_seen(picture, look),
-         fmt::format("frame {}, the middle one", middle), 100.0 * look.alike, "%", why, remedy});
+    scenes::add_in_order(findings, {Severity::wrong, "blank-picture", what_is_seen(picture, look),
+                                    fmt::format("frame {}, the middle one", middle),
+                                    100.0 * look.alike, "%", why, remedy});
   }
 }
 

@@ -1,5 +1,7 @@
 #include "apps/help/bash_completion.h"
 
+#include <fmt/format.h>
+
 #include <string_view>
 
 #include "apps/common.h"
@@ -11,19 +13,13 @@
 namespace fanbeam::apps {
 namespace {
 
-std::string joined(const std::vector<std::string>& words, const char* between = " ") {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
-  return text;
-}
-
 // How the value of an option is completed, in the words of the script below.
 std::string kind_of(const OptionText& option) {
   const auto begins = [&](std::string_view word) { return option.value.starts_with(word); };
-  if (!option.offered.empty()) return "list " + joined(option.offered);
+  if (!option.offered.empty()) return fmt::format("list {}", fmt::join(option.offered, " "));
   if (!option.choices.empty())
-    return (option.value.find(',') == std::string::npos ? "words " : "list ") +
-           joined(option.choices);
+    return fmt::format("{} {}", option.value.find(',') == std::string::npos ? "words" : "list",
+                       fmt::join(option.choices, " "));
   if (begins(kSceneValue)) return "names scenes folder";
   if (begins(kSensorValue)) return "names sensors file";
   if (begins(kMaterialValue)) return "names materials";
@@ -55,11 +51,13 @@ void add(const CLI::App& command, Tables& tables) {
       for (const std::string& name : option.names)
         patterns.push_back("\"" + key + ":" + name + "\"");
     }
-    tables.kinds += "    " + joined(patterns, " | ") + ") kind=\"" + kind_of(option) + "\" ;;\n";
+    tables.kinds +=
+        fmt::format("    {}) kind=\"{}\" ;;\n", fmt::join(patterns, " | "), kind_of(option));
   }
   if (!commands.empty())
-    tables.commands += "    \"" + key + "\") commands=\"" + joined(commands) + "\" ;;\n";
-  tables.options += "    \"" + key + "\") options=\"" + joined(options) + "\" ;;\n";
+    tables.commands +=
+        fmt::format("    \"{}\") commands=\"{}\" ;;\n", key, fmt::join(commands, " "));
+  tables.options += fmt::format("    \"{}\") options=\"{}\" ;;\n", key, fmt::join(options, " "));
   for (const CLI::App* one : commands_of(command)) add(*one, tables);
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <glm/common.hpp>
 #include <limits>
+#include <utility>
 
 #include "core/units.h"
 #include "materials/library/material_library.h"
@@ -125,6 +126,13 @@ Findings examine(const Scene& scene, const std::vector<core::Problem>& warnings)
   std::stable_sort(findings.begin(), findings.end(),
                    [](const Finding& a, const Finding& b) { return a.severity > b.severity; });
   return findings;
+}
+
+void add_in_order(Findings& findings, Finding finding) {
+  const auto place = std::find_if(findings.begin(), findings.end(), [&](const Finding& other) {
+    return other.severity < finding.severity;
+  });
+  findings.insert(place, std::move(finding));
 }
 
 }  // namespace fanbeam::scenes

@@ -23,4 +23,7 @@ inline constexpr int kMostSights = 100;
 // `warnings` are those of building the scene. The worst come first, in a fixed order.
 Findings examine(const Scene& scene, const std::vector<core::Problem>& warnings);
 
+// Behind all that are as bad or worse.
+void add_in_order(Findings& findings, Finding finding);
+
 }  // namespace fanbeam::scenes
