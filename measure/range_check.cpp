@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/median.h"
 #include "core/parallel.h"
 #include "core/turns.h"
 #include "renderer/casting/ray_caster.h"
@@ -74,12 +75,9 @@ RangeFigures RangeCheck::ranges(int repetitions) const {
   }
   figures.hits = differences_m.size();
   if (!differences_m.empty()) {
-    const auto middle =
-        differences_m.begin() + static_cast<std::ptrdiff_t>(differences_m.size() / 2);
-    std::nth_element(differences_m.begin(), middle, differences_m.end());
-    figures.median_m = *middle;
+    figures.median_m = core::median(differences_m);
     figures.rms_m = std::sqrt(squares_m2 / static_cast<double>(differences_m.size()));
-    figures.largest_m = *std::max_element(middle, differences_m.end());
+    figures.largest_m = *std::max_element(differences_m.begin(), differences_m.end());
   }
   // What the passes find, so that they are not left out as idle.
   std::vector<double> found_m((packets_.size() + kPacketsPerTask - 1) / kPacketsPerTask);

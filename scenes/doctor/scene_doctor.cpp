@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/median.h"
 #include "core/units.h"
 #include "materials/library/material_library.h"
 #include "scenes/doctor/parts_private.h"
@@ -64,9 +65,7 @@ double far_sine_of(const std::vector<Sight>& flight, const sensors::RangeGate& r
   std::vector<double> heights_m;
   for (const Sight& sight : flight) heights_m.push_back(sight.above_ground_m);
   if (heights_m.empty()) return 0.01;
-  const auto middle = heights_m.begin() + static_cast<std::ptrdiff_t>(heights_m.size() / 2);
-  std::nth_element(heights_m.begin(), middle, heights_m.end());
-  return std::clamp(*middle / range.maximum_m(), 1e-3, 1.0);
+  return std::clamp(core::median(std::move(heights_m)) / range.maximum_m(), 1e-3, 1.0);
 }
 
 }  // namespace

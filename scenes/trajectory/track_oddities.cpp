@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/median.h"
 #include "core/units.h"
 #include "scenes/trajectory/track_check.h"
 #include "scenes/trajectory/track_order.h"
@@ -183,10 +184,8 @@ void warn_of_gaps(const RawTrack& track, core::ProblemList& problems) {
   for (std::size_t i = 1; i < track.rows.size(); ++i)
     steps_s.push_back(track.rows[i].time_s - track.rows[i - 1].time_s);
   if (steps_s.empty()) return;
-  std::vector<double> sorted_s = steps_s;
-  const auto middle = sorted_s.begin() + static_cast<std::ptrdiff_t>(sorted_s.size() / 2);
-  std::nth_element(sorted_s.begin(), middle, sorted_s.end());
-  const double limit_s = std::clamp(kOddMedians * *middle, kShortestGap_s, kLongestSilence_s);
+  const double limit_s =
+      std::clamp(kOddMedians * core::median(steps_s), kShortestGap_s, kLongestSilence_s);
   Oddity gap(limit_s, "s");
   for (std::size_t i = 0; i < steps_s.size(); ++i) gap.see(i + 1, steps_s[i]);
   gap.tell(track, "GAP", "time since the row before", problems);

@@ -1,5 +1,6 @@
 #include "sensors/shadow/shadow_certainty.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sensors/cells.h"

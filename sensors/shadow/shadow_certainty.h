@@ -20,10 +20,11 @@
 // Accuracy: docs/physics/shadow-heights.md.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
+#include "core/median.h"
 #include "sensors/sensor.h"
 #include "sensors/shadow/shadow_runs.h"
 
@@ -35,9 +36,7 @@ template <class Value>
 double median_of(const ShadowColumns& columns, const Value& value) {
   std::vector<double> values;
   for (const ShadowRun& run : columns) values.push_back(value(run));
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return core::median(std::move(values));
 }
 
 // Slant ranges of the top edge and of the shadow's end, and the height they

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/decibel.h"
+#include "core/median.h"
 
 namespace fanbeam::sensors {
 namespace {
@@ -79,10 +81,7 @@ double fluctuation_of(std::span<const double> power_W, std::size_t columns, doub
   for (std::size_t i = columns; i < power_W.size(); ++i)
     if (power_W[i] > least_W && power_W[i - columns] > least_W)
       steps.push_back(std::abs(std::log(power_W[i] / power_W[i - columns])));
-  if (steps.empty()) return 0.0;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle / std::log(3.0);
+  return core::median(std::move(steps)) / std::log(3.0);
 }
 
 }  // namespace

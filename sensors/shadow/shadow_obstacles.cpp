@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "core/errors.h"
+#include "core/median.h"
 #include "core/number_range.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "sensors/cells.h"
@@ -74,9 +76,7 @@ Cut cut_through(const ShadowGround& ground, const Group& core, double from, doub
   const auto share = [&](int column) {
     std::vector<double> values;
     for (int row = first; row < last; ++row) values.push_back(ground.at(row, column));
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return std::clamp(*middle / lit, 0.0, 1.0);
+    return std::clamp(core::median(std::move(values)) / lit, 0.0, 1.0);
   };
   Cut cut;
   const int left = core.front().column, right = core.back().column;

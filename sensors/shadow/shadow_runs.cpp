@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/median.h"
 #include "core/parallel.h"
 
 namespace fanbeam::sensors {
@@ -22,10 +23,7 @@ constexpr double kSmoothPicture = 0.2;  // fluctuation up to which one cell tell
 double square(double x) { return x * x; }
 
 double median(const std::vector<double>& values, int from, int to) {
-  std::vector<double> part(values.begin() + from, values.begin() + to);
-  const auto middle = part.begin() + static_cast<std::ptrdiff_t>(part.size() / 2);
-  std::nth_element(part.begin(), middle, part.end());
-  return *middle;
+  return core::median(std::vector<double>(values.begin() + from, values.begin() + to));
 }
 
 struct Dip {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/median.h"
 #include "core/parallel.h"
 #include "signal/checks_private.h"
 #include "signal/fourier/fft.h"
@@ -30,13 +31,11 @@ Crossed crossed_samples(const FloatCube& cube, const std::vector<int>& channels,
     for (int n = 0; n < samples; ++n)
       powers[static_cast<std::size_t>(n)] +=
           static_cast<double>(std::norm(cube.at(channel, chirp, n)));
-  std::vector<double> sorted = powers;
-  const auto middle = sorted.begin() + samples / 2;
-  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double middle = core::median(powers);
   Crossed crossed(powers.size(), false);
-  if (!(*middle > 0.0)) return crossed;
+  if (!(middle > 0.0)) return crossed;
   for (int n = 0; n < samples; ++n) {
-    if (powers[static_cast<std::size_t>(n)] < threshold * *middle) continue;
+    if (powers[static_cast<std::size_t>(n)] < threshold * middle) continue;
     for (int k = std::max(0, n - kMargin); k <= std::min(samples - 1, n + kMargin); ++k)
       crossed[static_cast<std::size_t>(k)] = true;
   }
