@@ -468,6 +468,7 @@ HighwayFile parse_highway(const std::string& text, const std::string& name) {
   const auto json = core::parse_json(text, name, kLimits, problems);
   problems.throw_if_errors();
   HighwayFile result = file_of(JsonNode(*json, problems));
+  result.name = name;
   problems.throw_if_errors();
   return result;
 }

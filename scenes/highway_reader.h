@@ -37,6 +37,7 @@ namespace fanbeam::scenes {
 struct HighwayFile {
   core::HighwayRadar radar;
   std::vector<core::HighwayScenario> scenarios;
+  std::string name{};  // of the file, for messages
 };
 
 HighwayFile read_highway_file(const std::filesystem::path& file);

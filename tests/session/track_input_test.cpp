@@ -90,3 +90,18 @@ TEST_CASE("Scenarios of a file are chosen by their id, with the radar that the s
   CHECK_THROWS_WITH(session::chosen_scenarios(file, "", settings),
                     Catch::Contains("E-PATH scenario id = \"../S1\""));
 }
+
+// Tracked to the end, it was the run's record that could not be written.
+TEST_CASE("Scenarios named like a record are refused with all bad names, before any is tracked",
+          "[track_input]") {
+  scenes::HighwayFile file;
+  file.name = "road.json";
+  for (const char* id : {"run.json", "S1", "timing.json", "../S2"}) {
+    file.scenarios.emplace_back();
+    file.scenarios.back().id = id;
+  }
+  CHECK_THROWS_WITH(session::chosen_scenarios(file, "", {}),
+                    Catch::Contains("road.json: E-PATH scenario id = \"run.json\"") &&
+                        Catch::Contains("\"timing.json\"") && Catch::Contains("\"../S2\""));
+  CHECK(session::chosen_scenarios(file, "S1", {}).size() == 1);
+}

@@ -9,12 +9,15 @@
 namespace fanbeam::session {
 namespace {
 
-// The id becomes a folder.
-void check_scenario_id(const std::string& id) {
+// The id becomes a folder beside the run's records.
+void check_scenario_id(const std::string& id, const std::string& file,
+                       core::ProblemList& problems) {
   if (!core::is_safe_word(id))
-    core::throw_input_error(
-        core::ErrorClass::path, "scenario id", "\"" + id + "\"",
-        "1 to 64 letters, digits, '.', '-' and '_', the first a letter or digit");
+    problems.error(core::ErrorClass::path, {file}, "scenario id", "\"" + id + "\"",
+                   "1 to 64 letters, digits, '.', '-' and '_', the first a letter or digit");
+  else if (id == "run.json" || id == "timing.json")
+    problems.error(core::ErrorClass::path, {file}, "scenario id", "\"" + id + "\"",
+                   "another id: it is a folder's name, and that of a record in the same place");
 }
 
 }  // namespace
@@ -31,7 +34,9 @@ std::vector<StudyScenario> chosen_scenarios(const scenes::HighwayFile& file, con
   if (chosen.empty())
     core::throw_input_error(core::ErrorClass::ref, "--scenario", "\"" + id + "\"",
                             "one of: " + known);
-  for (const StudyScenario& one : chosen) check_scenario_id(one.scenario->id);
+  core::ProblemList problems;
+  for (const StudyScenario& one : chosen) check_scenario_id(one.scenario->id, file.name, problems);
+  problems.throw_if_errors();
   return chosen;
 }
 

@@ -12,8 +12,8 @@
 namespace fanbeam::session {
 
 // The scenario of that id, all of the file where it is empty, each with its radar under the settings. `file` must
-// outlive them. Throws InputError: E-REF of --scenario for an id that the file does not have, E-PATH for one that is
-// no name of a folder (core::is_safe_word).
+// outlive them. Throws InputError: E-REF of --scenario for an id that the file does not have, E-PATH for all that are
+// no name of a folder (core::is_safe_word) or that of a record beside it.
 std::vector<StudyScenario> chosen_scenarios(const scenes::HighwayFile& file, const std::string& id,
                                             const TrackSettings& settings);
 
