@@ -8,7 +8,7 @@
 namespace fanbeam::signal {
 
 double doppler_shift_Hz(double radial_speed_mps, double frequency_Hz) {
-  const double closing_mps = -radial_speed_mps;
+  const double closing_mps = 0.0 - radial_speed_mps;  // at rest 0, not -0
   if (!(std::abs(closing_mps) < core::kSpeedOfLight_mps))
     core::throw_input_error(core::ErrorClass::range, "radial_speed_mps", radial_speed_mps,
                             "below the speed of light");

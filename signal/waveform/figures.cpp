@@ -42,7 +42,9 @@ void ramps(const Waveform& waveform, const std::vector<Segment>& segments, doubl
         segments[static_cast<std::size_t>(in_turn)].start_s - segments[0].start_s;
     stage.speed_cell_mps = wavelength_m / (2.0 * rounds * interval_s);
     stage.unambiguous_speed_mps = wavelength_m / (4.0 * interval_s);
-  } else if (segments.size() == 2) {
+  } else if (segments.size() == 2 &&
+             segments[0].slope_Hz_per_s * segments[1].slope_Hz_per_s < 0.0) {
+    // A triangle: the difference of its two beats.
     stage.speed_cell_mps = wavelength_m / (2.0 * stage.segment_s);
     stage.unambiguous_speed_mps = 0.5 * wavelength_m * highest_beat_Hz(rate_Hz);
   }

@@ -42,10 +42,12 @@ void warn(int number, const std::string& where, double value, const std::string&
                        "; the farthest reads " + core::number_text(reads) + " " + unit);
 }
 
-void refuse_first(const std::vector<core::Problem>& warnings) {
-  if (!warnings.empty())
-    core::throw_input_error(core::ErrorClass::range, warnings[0].field, warnings[0].value,
-                            "inside the unambiguous span: " + warnings[0].expected);
+void refuse_all(const std::vector<core::Problem>& warnings) {
+  core::ProblemList problems;
+  for (const core::Problem& one : warnings)
+    problems.error(core::ErrorClass::range, {}, one.field, one.value,
+                   "inside the unambiguous span: " + one.expected);
+  problems.throw_if_errors();
 }
 
 }  // namespace
@@ -65,7 +67,7 @@ std::vector<StageFolding> count_folding(const Waveform& waveform,
           for (const ScatterPath& path : paths)
             stages[i].negative_beats += has_wrong_sign(segment, path) ? 1 : 0;
   }
-  if (policy == FoldingPolicy::refuse) refuse_first(folding_warnings(stages));
+  if (policy == FoldingPolicy::refuse) refuse_all(folding_warnings(stages));
   return stages;
 }
 
@@ -87,7 +89,7 @@ std::vector<core::Problem> folded_azimuths(const Array& array, double wavelength
   core::ProblemList warnings;
   warn(number, "azimuth", core::degrees(widest_rad), "deg",
        core::degrees(std::asin(fold(widest, most))), core::degrees(std::asin(most)), warnings);
-  if (policy == FoldingPolicy::refuse) refuse_first(warnings.all());
+  if (policy == FoldingPolicy::refuse) refuse_all(warnings.all());
   return warnings.all();
 }
 

@@ -28,7 +28,7 @@ struct StageFolding {
 };
 
 // One entry for every stage. With FoldingPolicy::refuse throws InputError (E-RANGE) with the
-// figures of the first stage that folds anything.
+// figures of all stages that fold anything.
 std::vector<StageFolding> count_folding(const Waveform& waveform,
                                         const std::vector<ScatterPath>& paths,
                                         FoldingPolicy policy = FoldingPolicy::count);

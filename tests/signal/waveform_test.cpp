@@ -220,3 +220,26 @@ TEST_CASE("Parameters of waveforms are refused by name", "[waveform]") {
   waveform.segments[1].start_s = waveform.segments[0].start_s;
   CHECK(refused([&] { check(waveform); }, "start_s"));
 }
+
+TEST_CASE("Two chirps of one slope are no triangle: one of each transmitter tells no speed",
+          "[waveform]") {
+  ChirpSequenceParameters once;
+  once.chirps = 1;
+  once.slots = 2;
+  const StageFigures stage = figures(chirp_sequence(once)).at(0);
+  CHECK_FALSE(stage.speed_cell_mps);
+  CHECK_FALSE(stage.unambiguous_speed_mps);
+  CHECK(figures(triangle({})).at(0).speed_cell_mps);
+}
+
+TEST_CASE("An echo at rest has no shift, and no sign of one", "[waveform]") {
+  CHECK_FALSE(std::signbit(doppler_shift_Hz(0.0, 76e9)));
+}
+
+TEST_CASE("All that folds is refused together", "[waveform]") {
+  ScatterPath far;
+  far.range_m = 1e5;
+  far.radial_speed_mps = 1e3;
+  CHECK_THROWS_WITH(count_folding(chirp_sequence({}), {far}, FoldingPolicy::refuse),
+                    Catch::Contains("stage 0 range") && Catch::Contains("stage 0 radial speed"));
+}
