@@ -71,6 +71,8 @@ class FmcwRun {
                     : settings.output,
                 "", settings.overwrite) {
     if (runs_chain_) check_processing(radar_, products_);  // before rays are sent
+    if (runs_chain_ && !scene.description.interferers.empty())
+      signal::check_hears_others(radar_.waveform);
     if (products_.contains(kInterference) && scene.description.interferers.empty())
       core::throw_input_error(core::ErrorClass::ref, "--products", "\"interference\"",
                               "a scene with [[interferer]]: this one has no other radar");

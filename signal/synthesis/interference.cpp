@@ -131,12 +131,16 @@ double interference_power_W(double eirp_W, double receive_gain, double wavelengt
   return eirp_W * receive_gain * spread * spread;
 }
 
-std::size_t add_interference(const Waveform& waveform, int stage, const Array& array,
-                             const std::vector<Interferer>& interferers, FloatCube& cube) {
-  if (interferers.empty()) return 0;
+void check_hears_others(const Waveform& waveform) {
   if (waveform.kind == WaveformKind::pulsed || waveform.kind == WaveformKind::sinusoidal)
     core::throw_input_error(core::ErrorClass::unsupported, "waveform.kind",
                             std::string(name(waveform.kind)), "ramps or tones beside interferers");
+}
+
+std::size_t add_interference(const Waveform& waveform, int stage, const Array& array,
+                             const std::vector<Interferer>& interferers, FloatCube& cube) {
+  if (interferers.empty()) return 0;
+  check_hears_others(waveform);
   const Frame frame = make_frame(waveform, stage, array);
   if (!(cube.shape == frame.shape)) refuse("cube.samples", cube.shape.samples, "the waveform's");
   for (const Interferer& one : interferers) {

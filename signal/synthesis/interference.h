@@ -46,6 +46,9 @@ struct Interferer {
 double interference_power_W(double eirp_W, double receive_gain, double wavelength_m,
                             double range_m);
 
+// E-UNSUPPORTED for a waveform that add_interference does not take: to be asked before the work of synthesis.
+void check_hears_others(const Waveform& waveform);
+
 // Returns how many samples of the first channel got a beat at half of its amplitude or more.
 std::size_t add_interference(const Waveform& waveform, int stage, const Array& array,
                              const std::vector<Interferer>& interferers, FloatCube& cube);
