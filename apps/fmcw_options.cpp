@@ -70,8 +70,16 @@ void add_radar(CLI::App& command, FmcwOptions& options) {
 }
 
 void add_receiver(CLI::App& command, FmcwOptions& options) {
-  add_number(command, "--line-width", options.line_width_Hz, {0.0, 1e6},
-             "Of the oscillator, Hz: phase noise (default 0: none)");
+  command
+      .add_option_function<double>(
+          "--line-width",
+          [&options](double given_Hz) {
+            options.line_width_Hz = given_Hz;
+            if (given_Hz == 0.0) options.phase_noise = {};
+          },
+          "Of the oscillator, Hz: phase noise (default 0: none, given also of a radar file's "
+          "table)")
+      ->check(number_from(0.0, 1e6));
   add_whole_number(command, "--adc-bits", options.adc_bits, {0, 24},
                    "Quantise the samples, full scale at the largest (default 0: not)");
   add_number(command, "--adc-full-scale", options.adc_full_scale_dBm, {-300.0, 300.0},

@@ -85,7 +85,7 @@ signal::Waveform waveform_of(const FmcwSettings& options, const std::string& nam
 }
 
 signal::Array array_of(const FmcwSettings& options, const signal::Waveform& waveform,
-                       double pitch_m) {
+                       double pitch_m, core::ProblemList& problems) {
   signal::Array array = signal::line_array(options.transmitters, options.receivers, pitch_m);
   if (!options.transmitters_m.empty()) array.transmitters_m = options.transmitters_m;
   if (!options.receivers_m.empty()) array.receivers_m = options.receivers_m;
@@ -93,14 +93,13 @@ signal::Array array_of(const FmcwSettings& options, const signal::Waveform& wave
   const auto channels = static_cast<std::size_t>(array.channels());
   for (const auto* errors : {&options.gain_errors_dB, &options.phase_errors_rad})
     if (!errors->empty() && errors->size() != channels)
-      core::throw_input_error(core::ErrorClass::range, "channel errors",
-                              static_cast<double>(errors->size()),
-                              "one for each of " + std::to_string(channels) + " channels");
+      problems.error(core::ErrorClass::range, {}, "channel errors", std::to_string(errors->size()),
+                     "one for each of " + std::to_string(channels) + " channels");
   const int slots = signal::slots(signal::stage_segments(waveform, 0));
   array.multiplex = slots == 1 ? signal::Multiplex::simultaneous : signal::Multiplex::time_division;
   if (slots != 1 && slots != static_cast<int>(array.transmitters_m.size()))
-    core::throw_input_error(core::ErrorClass::unsupported, "--slots", slots,
-                            "1, or as many as --transmitters");
+    problems.error(core::ErrorClass::unsupported, {}, "--slots", std::to_string(slots),
+                   "1, or as many as --transmitters");
   return array;
 }
 
@@ -112,8 +111,26 @@ bool is_line(const std::vector<glm::dvec3>& elements_m) {
   return pitch_m.y > 0.0 && std::hypot(pitch_m.x, pitch_m.z) <= 1e-6 * pitch_m.y;
 }
 
+// In the words of the options: the detector only knows its cells.
+void check_training(const ProcessingSettings& options) {
+  const CellSpan &guard = options.cfar_guard, &training = options.cfar_training;
+  const auto cells = [](int range, int doppler) { return (2 * range + 1) * (2 * doppler + 1); };
+  const int count = cells(guard.range + training.range, guard.doppler + training.doppler) -
+                    cells(guard.range, guard.doppler);
+  if (count == 0 || count > signal::kMostCalibratedCells)
+    core::throw_input_error(
+        core::ErrorClass::range, "--cfar-training",
+        fmt::format("{},{}", training.range, training.doppler),
+        count == 0
+            ? std::string("1 or more in range, Doppler or both")
+            : fmt::format("fewer, or fewer --cfar-guard: {} training cells around a cell are "
+                          "more than {}",
+                          count, signal::kMostCalibratedCells));
+}
+
 signal::CfarSettings cfar_of(const ProcessingSettings& options,
                              const signal::CellCorrelation& cells, int looks) {
+  check_training(options);
   signal::CfarSettings cfar;
   cfar.kind = options.cfar;
   cfar.design_probability = options.false_alarm_probability;
@@ -207,8 +224,7 @@ std::string waveform_name(const FmcwSettings& options, const sensors::Sensor& se
 
 namespace {
 
-void check_receiver(const ReceiverSettings& receiver) {
-  core::ProblemList problems;
+void check_receiver(const ReceiverSettings& receiver, core::ProblemList& problems) {
   if (receiver.adc_full_scale_dBm && receiver.adc_bits == 0)
     problems.error(core::ErrorClass::ref, {}, "--adc-bits", "0",
                    "1 or more, or no full scale of the converter");
@@ -216,17 +232,46 @@ void check_receiver(const ReceiverSettings& receiver) {
     problems.error(core::ErrorClass::unsupported, {}, "--line-width",
                    core::number_text(receiver.line_width_Hz),
                    "a line width or a table of phase noise, not both");
-  problems.throw_if_errors();
 }
 
-FmcwRadar made(const FmcwSettings& options, const std::string& name, const Front& front) {
-  check_receiver(options);
-  FmcwRadar radar;
-  radar.waveform_name = name;
-  radar.noise_figure = front.noise_figure;
-  radar.waveform = waveform_of(options, name, front);
+// What `make` throws goes to the others.
+template <class Make>
+bool attempt(core::ProblemList& problems, const Make& make) {
+  try {
+    make();
+    return true;
+  } catch (const core::InputError& error) {
+    problems.append(error.problems());
+    return false;
+  }
+}
+
+// What is asked for of azimuths and folds, and this array cannot.
+void check_methods(const FmcwSettings& options, const FmcwRadar& radar, std::size_t channels,
+                   core::ProblemList& problems) {
+  const bool beams = options.angle_method == signal::AngleMethod::beamforming;
+  const auto refuse = [&](const char* what, const std::string& value, const std::string& expected) {
+    problems.error(core::ErrorClass::unsupported, {}, what, value, expected);
+  };
+  const std::string method(signal::name(options.angle_method));
+  if (!radar.line && !beams)
+    refuse("angle method", method, "beamforming, or an array on a line at one pitch");
+  if (!radar.line && options.angle_window.kind != signal::WindowKind::rectangular &&
+      !(options.angle_window == ProcessingSettings{}.angle_window))
+    refuse("angle window", signal::name(options.angle_window),
+           "rectangular, or an array on a line at one pitch");
+  if (channels < signal::kFewestElements && !beams)
+    refuse("angle method", method,
+           "beamforming, or an array of " + std::to_string(signal::kFewestElements) +
+               " channels or more");
+  if (options.unfold && radar.array.slots() == 1)
+    refuse("--unfold", "true",
+           "two transmitters or more that take turns: their phases tell the fold");
+}
+
+void set_array(const FmcwSettings& options, FmcwRadar& radar, core::ProblemList& problems) {
   radar.pitch_m = options.pitch_wavelengths * radar.waveform.wavelength_m();
-  radar.array = array_of(options, radar.waveform, radar.pitch_m);
+  radar.array = array_of(options, radar.waveform, radar.pitch_m, problems);
   signal::check_size(radar.waveform, radar.array);  // before rays are sent for it
   const std::vector<glm::dvec3> elements_m = signal::virtual_elements_m(radar.array);
   radar.line = is_line(elements_m);
@@ -234,28 +279,24 @@ FmcwRadar made(const FmcwSettings& options, const std::string& name, const Front
     radar.pitch_m = 0.5 * radar.waveform.wavelength_m();
   else if (elements_m.size() > 1)
     radar.pitch_m = elements_m[1].y - elements_m[0].y;
-  if (!radar.line && options.angle_method != signal::AngleMethod::beamforming)
-    core::throw_input_error(core::ErrorClass::unsupported, "angle method",
-                            std::string(signal::name(options.angle_method)),
-                            "beamforming, or an array on a line at one pitch");
-  if (!radar.line && options.angle_window.kind != signal::WindowKind::rectangular &&
-      !(options.angle_window == ProcessingSettings{}.angle_window))
-    core::throw_input_error(core::ErrorClass::unsupported, "angle window",
-                            signal::name(options.angle_window),
-                            "rectangular, or an array on a line at one pitch");
-  if (elements_m.size() < signal::kFewestElements &&
-      options.angle_method != signal::AngleMethod::beamforming)
-    core::throw_input_error(core::ErrorClass::unsupported, "angle method",
-                            std::string(signal::name(options.angle_method)),
-                            "beamforming, or an array of " +
-                                std::to_string(signal::kFewestElements) + " channels or more");
-  if (options.unfold && radar.array.slots() == 1)
-    core::throw_input_error(core::ErrorClass::unsupported, "--unfold", "true",
-                            "two transmitters or more that take turns: their phases tell the fold");
-  radar.maps =
-      is_sequence(radar.waveform.kind) && signal::stage_segments(radar.waveform, 0).size() >
-                                              static_cast<std::size_t>(radar.array.slots());
-  if (radar.maps) prepare_maps(options, front, radar);
+  check_methods(options, radar, elements_m.size(), problems);
+  const std::vector<signal::Segment> segments = signal::stage_segments(radar.waveform, 0);
+  const int slots = radar.array.slots();
+  radar.maps = is_sequence(radar.waveform.kind) && signal::slots(segments) == slots &&
+               segments.size() > static_cast<std::size_t>(slots);
+}
+
+FmcwRadar made(const FmcwSettings& options, const std::string& name, const Front& front) {
+  core::ProblemList problems;
+  check_receiver(options, problems);
+  FmcwRadar radar;
+  radar.waveform_name = name;
+  radar.noise_figure = front.noise_figure;
+  const bool whole =
+      attempt(problems, [&] { radar.waveform = waveform_of(options, name, front); }) &&
+      attempt(problems, [&] { set_array(options, radar, problems); });
+  if (whole && radar.maps) attempt(problems, [&] { prepare_maps(options, front, radar); });
+  problems.throw_if_errors();
   return radar;
 }
 

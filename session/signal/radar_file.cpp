@@ -112,7 +112,7 @@ void read_receiver(ConfigTable table, FmcwSettings& settings) {
     table.error(ErrorClass::range, "phase_noise_offsets_kHz", "not rising", "rising offsets");
   else
     settings.phase_noise = noise;
-  if (!settings.phase_noise.empty() && settings.line_width_Hz > 0.0)
+  if (!noise.offsets_Hz.empty() && table.has("line_width_Hz"))
     table.error(ErrorClass::unsupported, "line_width_Hz", core::number_text(settings.line_width_Hz),
                 "a line width or a table of phase noise, not both");
   settings.adc_bits = static_cast<int>(table.integer("adc_bits", 0, 24, settings.adc_bits));

@@ -30,10 +30,11 @@ class Given {
     const std::size_t i = waveform_number(option);
     double number = value;
     put(option, number);
-    if (number != std::floor(number))
-      core::throw_input_error(core::ErrorClass::range, kWaveformNumbers[i].option, number,
-                              "a whole number");
-    value = static_cast<int>(number);
+    if (number == std::floor(number))
+      value = static_cast<int>(number);
+    else
+      problems_.error(core::ErrorClass::range, {}, kWaveformNumbers[i].option,
+                      core::number_text(number), "a whole number");
   }
   void put_complex(bool& complex_baseband) {
     real_taken_ = true;
@@ -44,23 +45,27 @@ class Given {
     down_first = options_.down_first;
   }
 
-  void refuse_the_rest() const {
+  // With what else is wrong.
+  void refuse_the_rest(const std::vector<core::Problem>& others) {
+    problems_.append(others);
     for (std::size_t i = 0; i < kWaveformNumbers.size(); ++i)
       if (options_.numbers[i] && !taken_.contains(i))
         refuse(kWaveformNumbers[i].option, core::number_text(*options_.numbers[i]));
     if (options_.real && !real_taken_) refuse("--real", "given");
     if (options_.down_first && !down_first_taken_) refuse("--down-first", "given");
+    problems_.throw_if_errors();
   }
 
  private:
-  void refuse(const char* option, const std::string& value) const {
-    core::throw_input_error(core::ErrorClass::unsupported, option, value,
-                            "a parameter of " + options_.kind);
+  void refuse(const char* option, const std::string& value) {
+    problems_.error(core::ErrorClass::unsupported, {}, option, value,
+                    "a parameter of " + options_.kind);
   }
 
   const WaveformSettings& options_;
   std::set<std::size_t> taken_;
   bool real_taken_ = false, down_first_taken_ = false;
+  core::ProblemList problems_;
 };
 
 void put_chirps(Given& given, signal::ChirpSequenceParameters& chirps) {
@@ -206,15 +211,14 @@ signal::Waveform chosen_waveform(const WaveformSettings& options) {
   const bool is_flat = *kind == WaveformKind::continuous || *kind == WaveformKind::pulsed ||
                        *kind == WaveformKind::sinusoidal || *kind == WaveformKind::stepped;
   signal::Waveform waveform;
+  std::vector<core::Problem> problems;
   try {
     waveform = is_flat ? flat_waveform(*kind, given) : ramped_waveform(*kind, given);
   } catch (const core::InputError& error) {
-    std::vector<core::Problem> problems;
     for (const core::Problem& problem : error.problems())
       problems.push_back(in_words_of_options(problem));
-    throw core::InputError(std::move(problems));
   }
-  given.refuse_the_rest();
+  given.refuse_the_rest(problems);
   return waveform;
 }
 

@@ -241,8 +241,9 @@ CfarCalibration drawn_calibration(const CfarSettings& settings,
 CfarCalibration calibrate(const CfarSettings& settings, const CellCorrelation& correlation,
                           int looks) {
   const std::vector<CfarOffset> offsets = cfar_offsets(settings);
-  if (offsets.size() > 2000)
-    refuse("reference cells", static_cast<double>(offsets.size()), "2000 at most");
+  if (offsets.size() > static_cast<std::size_t>(kMostCalibratedCells))
+    refuse("reference cells", static_cast<double>(offsets.size()),
+           std::to_string(kMostCalibratedCells) + " at most");
   const CfarReference reference = cfar_reference(settings);
   cfar_factor(reference, settings.design_probability);  // refuses what cannot be
   const Matrix matrix = correlation_matrix(offsets, correlation);

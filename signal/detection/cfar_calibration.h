@@ -26,7 +26,7 @@
 // `looks`: cells are sums of this many independent channels, as `range_doppler_map` with
 // Projection::sum makes. A map by Projection::max has another law and is not covered.
 // Source of the method: own derivation; quadratic forms after G. Turin, Biometrika 47, 1960.
-// Inputs: wanted probability in (0, 1), up to 2000 reference cells, looks 1 to kMostLooks; E-RANGE
+// Inputs: wanted probability in (0, 1), up to kMostCalibratedCells reference cells, looks 1 to kMostLooks; E-RANGE
 // otherwise. Accuracy: 1e-9 for the exact case; about 1 % for 1e-4 and N = 16. Cost: what is exact
 // grows as N^3, 0.1 s for N = 92; what is drawn takes 0.3 s of one thread for N = 16, 0.6 s for N =
 // 92 and 12 looks, 17 s for N = 600 and 12 looks; the last eight are remembered, of all threads.
@@ -68,6 +68,7 @@ inline constexpr double kLeastUntold = 0.5;
 // Of more channels than this the sum may be calibrated as of so many: the factor is too large then, at 1e-6 by
 // 0.35 dB at twice as many (Wilson and Hilferty), and false alarms are rarer.
 inline constexpr int kMostLooks = 256;
+inline constexpr int kMostCalibratedCells = 2000;
 
 // `settings.design_probability` is the rate that is wanted.
 CfarCalibration calibrated_cfar(const CfarSettings& settings, const CellCorrelation& correlation,

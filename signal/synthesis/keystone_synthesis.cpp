@@ -83,7 +83,7 @@ void add_row(const Frame& frame, const ElementRow& row, const std::vector<Scatte
   if (cells > kMostCells)
     core::throw_input_error(
         core::ErrorClass::limit, "grid cells", cells,
-        "at most 4e8: a shorter frame, a narrower span of speeds, or synthesise_beat");
+        "at most 4e8: a shorter frame, a narrower span of speeds, or fewer elements");
   // Not before: what is refused takes no memory.
   if (beat.cube.values.empty()) beat.cube = FloatCube(frame.shape);
   beat.estimated_error = std::max(beat.estimated_error, error_of(seen, kernel));

@@ -74,6 +74,14 @@ TEST_CASE("The waveform command tells what does not go together in the units of 
   told("--chirps 65536 --slots 256", "--chirps x slots = 16777216: expected 1 to 1000000");
 }
 
+TEST_CASE("The waveform command tells all that is wrong in one run", "[waveform_command]") {
+  const auto run = tests::run_fanbeam("waveform --chirps 2.5 --slots 1.5 --pulses 8 --interval 10");
+  INFO(run.output);
+  CHECK(run.exit_code == 2);
+  for (const char* words : {"--chirps = 2.5", "--slots = 1.5", "--pulses = 8", "--interval = 10"})
+    CHECK(run.output.find(words) != std::string::npos);
+}
+
 TEST_CASE("A mixer's tables do not take the place of somebody's", "[waveform_command]") {
   const tests::TemporaryFolder folder;
   const auto mixer = [&] {
