@@ -67,10 +67,13 @@ TEST_CASE("A stop ends a cast within a part of a sub-column, and the next cast i
   rolled.right = std::cos(kRoll_rad) * level.right - std::sin(kRoll_rad) * level.up;
   renderer::Sampling slices = tests::slices(1);
   slices.slices_per_sub_column = 4096;
+  renderer::Sampling fewer = slices;  // whose sixteenth part is long enough
+  fewer.slices_per_sub_column = 1024;
   renderer::Sampling rays;
   rays.sub_columns = 1;
   rays.rays_per_cell = 2000.0;
   const renderer::ProfileCaster by_slices(world, slices);
+  const renderer::ProfileCaster by_fewer_slices(world, fewer);
   const renderer::RayCaster by_rays(world, rays);
   const core::ThreadLimit one(1);
   const auto check = [](const renderer::Caster& caster, const sensors::AntennaFrame& antenna,
@@ -83,7 +86,7 @@ TEST_CASE("A stop ends a cast within a part of a sub-column, and the next cast i
     check(by_slices, level, [](const renderer::FanSums& sums) { return sums.sub_columns; });
   }
   SECTION("slices of a rolled antenna, in 16 parts") {
-    check(by_slices, rolled, [](const renderer::FanSums&) { return 16; });
+    check(by_fewer_slices, rolled, [](const renderer::FanSums&) { return 16; });
   }
   SECTION("rays, a body a group") {
     check(by_rays, level, [](const renderer::FanSums& sums) {
