@@ -1,17 +1,18 @@
 #include "live/desk.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <string_view>
+#include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "core/errors.h"
 #include "core/json_node.h"
 #include "core/picture_bytes.h"
+#include "core/spelling.h"
 #include "core/text.h"
 #include "core/units.h"
 #include "live/answers_private.h"
@@ -24,10 +25,20 @@ namespace {
 constexpr core::JsonLimits kLimits{8, 100};
 constexpr const char *kWeather = "/api/weather", *kSensor = "/api/sensor", *kCell = "/api/cell",
                      *kBscope = "/frame/bscope.png";
-// That answer a GET; streams and the WebSocket apart.
-constexpr std::array<std::string_view, 11> kPaths{
-    "/",     "/metrics", "/api/openapi.json", "/api/status", "/api/map", "/api/plan", kWeather,
-    kSensor, kCell,      "/frame/cscope.png", kBscope};
+
+// What answers a GET, with the keys of its query; streams and the WebSocket apart.
+const std::map<std::string, std::vector<std::string>> kPages{
+    {"/", {"token"}},
+    {"/metrics", {}},
+    {"/api/openapi.json", {}},
+    {"/api/status", {}},
+    {"/api/map", {}},
+    {"/api/plan", {}},
+    {kWeather, {}},
+    {kSensor, {}},
+    {kBscope, {"gain_dB"}},
+    {"/frame/cscope.png", {"gain_dB"}},
+    {kCell, {"scope", "frame", "column", "row"}}};
 
 Answer json_answer(const Json& value, int status = 200) {
   return {status, "application/json", value.dump(-1, ' ', true, Json::error_handler_t::replace)};
@@ -64,27 +75,21 @@ std::optional<std::string> word_in(const std::string& query, const std::string& 
 
 // "n" means nothing: with another one each time a browser asks anew.
 std::vector<std::string> query_keys(const std::string& path) {
-  if (path == kCell) return {"scope", "frame", "column", "row", "n"};
-  if (path.starts_with("/frame/")) return {"gain_dB", "n"};
-  if (path == "/") return {"token", "n"};
-  return {"n"};
+  std::vector<std::string> keys;
+  if (const auto page = kPages.find(path); page != kPages.end()) keys = page->second;
+  keys.emplace_back("n");
+  return keys;
 }
 
 void check_query(const std::string& query, const std::vector<std::string>& known,
                  core::ProblemList& problems) {
-  std::string names;
-  for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
-  std::vector<std::string> met;
-  const auto is_in = [](const std::vector<std::string>& all, const std::string& key) {
-    return std::find(all.begin(), all.end(), key) != all.end();
-  };
+  std::set<std::string> met;
   for (const auto& [key, value] : words_in(query)) {
-    if (!is_in(known, key))
-      problems.error(core::ErrorClass::parse, {}, key, "unknown",
-                     known.empty() ? "no query" : names);
-    else if (is_in(met, key))
-      problems.error(core::ErrorClass::parse, {}, key, "given twice", "each key once");
-    met.push_back(key);
+    if (std::find(known.begin(), known.end(), key) == known.end())
+      problems.error(core::ErrorClass::ref, {}, key, "unknown",
+                     "a key of this path" + core::names_there_text(key, known));
+    else if (!met.insert(key).second)
+      problems.error(core::ErrorClass::ref, {}, key, "given twice", "each key once");
   }
 }
 
@@ -262,8 +267,7 @@ Answer Desk::cell(const std::string& query, core::ProblemList& problems) const {
 }
 
 Answer Desk::get(const std::string& path, const std::string& query) const {
-  if (std::find(kPaths.begin(), kPaths.end(), path) == kPaths.end())
-    return refusal(404, "no such page");
+  if (!kPages.contains(path)) return refusal(404, "no such page");
   core::ProblemList problems;
   check_query(query, query_keys(path), problems);
   if (path == kCell) return cell(query, problems);

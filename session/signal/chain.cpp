@@ -31,24 +31,6 @@ void check_work(const signal::Frame& frame, std::size_t paths) {
         "at most 1e11 products: fewer --rays-per-cell, samples or receivers");
 }
 
-// What is too large told by the options that make it smaller.
-signal::KeystoneBeat beat_of_many(const signal::Waveform& waveform, int stage,
-                                  const signal::Array& array,
-                                  const std::vector<signal::ScatterPath>& paths) {
-  try {
-    return signal::keystone_beat(waveform, stage, array, paths);
-  } catch (const core::InputError& error) {
-    const core::Problem& first = error.problems().front();
-    if (first.field != "grid cells") throw;
-    core::throw_input_error(
-        core::ErrorClass::limit, "--chirps x --transmitters x --receivers",
-        first.value + " cells of the synthesis",
-        fmt::format("at most 4e8: fewer of these, a shorter --interval or --ramp, or with fewer "
-                    "--rays-per-cell {} paths at most",
-                    kMostDirectPaths));
-  }
-}
-
 // Complex samples, of a real waveform too: receive() makes those real.
 signal::FloatCube synthesise(const FmcwRadar& radar, int stage,
                              const std::vector<signal::ScatterPath>& paths, FmcwFrame& frame) {
@@ -57,7 +39,7 @@ signal::FloatCube synthesise(const FmcwRadar& radar, int stage,
   const signal::Frame layout = signal::make_frame(waveform, stage, radar.array);
   check_work(layout, paths.size());
   if (layout.uniform && paths.size() > kMostDirectPaths) {
-    signal::KeystoneBeat beat = beat_of_many(waveform, stage, radar.array, paths);
+    signal::KeystoneBeat beat = signal::keystone_beat(waveform, stage, radar.array, paths);
     if (stage == 0) {
       frame.keystone = true;
       frame.synthesis_error = std::max(frame.synthesis_error, beat.estimated_error);

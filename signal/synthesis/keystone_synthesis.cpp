@@ -83,7 +83,8 @@ void add_row(const Frame& frame, const ElementRow& row, const std::vector<Scatte
   if (cells > kMostCells)
     core::throw_input_error(
         core::ErrorClass::limit, "grid cells", cells,
-        "at most 4e8: a shorter frame, a narrower span of speeds, or fewer elements");
+        "at most 4e8: fewer chirps, transmitters or receivers, a shorter ramp or interval, or a "
+        "narrower span of speeds");
   // Not before: what is refused takes no memory.
   if (beat.cube.values.empty()) beat.cube = FloatCube(frame.shape);
   beat.estimated_error = std::max(beat.estimated_error, error_of(seen, kernel));

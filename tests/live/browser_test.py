@@ -46,7 +46,9 @@ def start_live(http, *options):
     return live, re.search(r"http://\S+", live.stdout.readline()).group(0)
 
 
-class Page(unittest.TestCase):
+class OnePage(unittest.TestCase):
+    """Of one flight, for all cases of a class."""
+
     @classmethod
     def setUpClass(cls):
         # Unlike the circle the approach sees ground all the time: rain has something to dim.
@@ -58,7 +60,13 @@ class Page(unittest.TestCase):
         cls.page.quit()
         cls.live.terminate()
         assert cls.live.wait(10) == 0, "a clean end"
+        cls.live.stdout.close()
 
+    def js(self, script, *arguments):
+        return self.page.execute_script("return " + script, *arguments)
+
+
+class Page(OnePage):
     def setUp(self):
         self.page.set_window_size(1200, 900)
         self.page.get(self.url)
@@ -74,9 +82,6 @@ class Page(unittest.TestCase):
                 return
             time.sleep(0.1)
         self.fail(f"no {what} within 15 s")
-
-    def js(self, script, *arguments):
-        return self.page.execute_script("return " + script, *arguments)
 
     def number(self):
         return int(self.js("document.body.dataset.frame || 0"))

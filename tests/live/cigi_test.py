@@ -218,7 +218,7 @@ class Cigi(unittest.TestCase):
             file.write('[[database]]\nnumber = 2\nscene = "obstacle-field"\n[[database]]\nnumber = 3\nscene = "nowhere"\n')
         shared = f"fanbeam-cigi-{os.getpid()}"
         host = self.start("--rate", "8", "--to", f"shm:{shared}", scene=base)
-        told, numbers, shown = [], [], []
+        numbers, shown = [], []
 
         def look():
             try:
@@ -228,20 +228,11 @@ class Cigi(unittest.TestCase):
                 pass  # between two scenes
 
         def ask(database, until):
-            end = time.monotonic() + 60
-            while time.monotonic() < end:
-                host.send(host.entity(52.0, 10.03, 200.0), database=database)
-                try:
-                    packets = host.receive()
-                except TimeoutError:
-                    continue
+            def see(packets):
                 look()
                 numbers.append(struct.unpack_from("<I", packets[0], 8)[0])
-                told.append(struct.unpack_from("<b", packets[0], 3)[0])
-                texts = [packet[4:].rstrip(b"\0").decode() for packet in packets if packet[0] == 117]
-                if until(told[-1], texts):
-                    return texts
-            self.fail(f"database {database} in vain: {told}")
+
+            return self.texts_once(host, database, until, see)
 
         # Each silence shows a picture once more, with a number of its own.
         for _ in range(3):
@@ -265,6 +256,22 @@ class Cigi(unittest.TestCase):
         seen = [int(row[0]) for row in self.tshark(host, "cigi.sof.db_number") if row[0]]
         self.assertLessEqual({1, 2, -2, -128}, set(seen))
 
+    def texts_once(self, host, database, until, see=lambda packets: None):
+        """Asks for the database until its told number and the texts are what is waited for."""
+        told, end = [], time.monotonic() + 60
+        while time.monotonic() < end:
+            host.send(host.entity(52.0, 10.03, 200.0), database=database)
+            try:
+                packets = host.receive()
+            except TimeoutError:
+                continue
+            see(packets)
+            told.append(struct.unpack_from("<b", packets[0], 3)[0])
+            texts = [packet[4:].rstrip(b"\0").decode() for packet in packets if packet[0] == 117]
+            if until(told[-1], texts):
+                return texts
+        self.fail(f"database {database} in vain: {told}")
+
     def test_a_scene_of_another_size_is_refused_where_raw_video_is_written(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -282,17 +289,7 @@ class Cigi(unittest.TestCase):
         host = self.start("--rate", "8", "--to", f"raw-bscope:{film}", scene=base)
 
         def ask(database, until):
-            end = time.monotonic() + 60
-            while time.monotonic() < end:
-                host.send(host.entity(52.0, 10.03, 200.0), database=database)
-                try:
-                    packets = host.receive()
-                except TimeoutError:
-                    continue
-                texts = [packet[4:].rstrip(b"\0").decode() for packet in packets if packet[0] == 117]
-                if until(struct.unpack_from("<b", packets[0], 3)[0], texts):
-                    return texts
-            self.fail(f"database {database} in vain")
+            return self.texts_once(host, database, until)
 
         [text] = ask(2, lambda _, texts: texts)
         self.assertIn("164x524", text)

@@ -419,7 +419,7 @@ TEST_CASE("Keys of a query that a path has not, or given twice, are told with th
   const json misspelt = problems(get(picture + "?gian_dB=6"));
   REQUIRE(misspelt.size() == 1);
   CHECK(misspelt[0]["field"] == "gian_dB");
-  CHECK(misspelt[0]["expected"] == "gain_dB, n");
+  CHECK(misspelt[0]["expected"] == "a key of this path; perhaps gain_dB of gain_dB, n");
   CHECK(problems(get(picture + "?gain_dB=1&gain_dB=500&x")).size() == 2);
   CHECK(problems(get(picture + "?gain_dB=")).size() == 1);
   CHECK(problems(get(picture + "?gain_dB")).size() == 1);

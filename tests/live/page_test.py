@@ -9,22 +9,10 @@ import unittest
 
 from selenium.webdriver.common.keys import Keys
 
-from browser_test import browser, start_live
+from browser_test import OnePage
 
 
-class Faults(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.live, cls.url = start_live("0", "--from", "ils")
-        cls.page = browser(1200, 900)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.page.quit()
-        cls.live.terminate()
-        assert cls.live.wait(10) == 0, "a clean end"
-        cls.live.stdout.close()
-
+class Faults(OnePage):
     def setUp(self):
         self.page.get(self.url)
         self.wait("state.past.length > 2", "frames")
@@ -36,9 +24,6 @@ class Faults(unittest.TestCase):
 
     def run_js(self, script, *arguments):
         return self.page.execute_script(script, *arguments)
-
-    def js(self, script, *arguments):
-        return self.run_js("return " + script, *arguments)
 
     def text(self, name):
         return self.js("byId(arguments[0]).textContent", name)

@@ -171,7 +171,7 @@ TEST_CASE("A frame too long for the keystone grid is E-LIMIT before its samples 
   const Array array = line_array(1, 12, 0.5 * core::kSpeedOfLight_mps / 76e9);
   const tests::PeakMemory memory;
   CHECK_THROWS_WITH(keystone_beat(waveform, 0, array, paths),
-                    Catch::Contains("E-LIMIT grid cells") && Catch::Contains("a shorter frame"));
+                    Catch::Contains("E-LIMIT grid cells") && Catch::Contains("fewer chirps"));
   CHECK(memory.rise_MiB() < 64.0);
 }
 
