@@ -230,7 +230,8 @@ void Ground::shape(const NaturalGround& natural) {
       field_.height_m[field_.post(i, j)] = *up_m;
       if (i + 1 == field_.columns || j + 1 == field_.rows) continue;
       const glm::dvec2 middle = p + glm::dvec2(field_.spacing_m / 2);
-      const core::Geodetic at = frame_.to_geodetic({middle, *up_m});
+      core::Geodetic at;  // a third of the time, and land cover alone asks for it
+      if (natural.has_land_cover()) at = frame_.to_geodetic({middle, *up_m});
       field_.cell_material[field_.cell(i, j)] = natural.material(at, middle, zone(middle));
       if (!covered && natural.is_covered(at)) covered = true;
     }
@@ -250,16 +251,24 @@ void Ground::shape(const NaturalGround& natural) {
                   "a smaller extent, or elevation data that cover it");
 }
 
+// Where a post lies is worked out as seldom as it may, and what stands there too: half of the time in which a scene is
+// opened. The second round asks at the height that the first one found, which on a plane Earth is the same place.
 std::optional<double> Ground::post_up_m(const NaturalGround& natural, glm::dvec2 position_m) const {
-  double up_m = 0.0;
-  // The second round uses the latitude and longitude at the height that the first one found.
+  const bool plane = frame_.model() == terrain::EarthModel::plane;
+  const bool by_place =
+      natural.elevation() != nullptr || scene_.datum == core::VerticalDatum::egm96;
+  double up_m = 0.0, height_m = 0.0;
+  core::Geodetic g = frame_.origin();
   for (int round = 0; round < 2; ++round) {
-    const core::Geodetic g = frame_.to_geodetic({position_m, up_m});
-    std::optional<double> height_m = natural.height_m(g, position_m);
-    if (!height_m) return std::nullopt;
-    height_m = terrain::flattened_height_m(runways_, position_m, *height_m);
-    *height_m += natural.canopy_m(position_m, zone(position_m));
-    up_m += ellipsoidal_m(*height_m, g.latitude_rad, g.longitude_rad, scene_.datum) - g.height_m;
+    if (!plane || (by_place && round == 0)) g = frame_.to_geodetic({position_m, up_m});
+    if (plane) g.height_m = frame_.origin().height_m + up_m;
+    if (round == 0 || natural.elevation() != nullptr) {
+      const std::optional<double> natural_m = natural.height_m(g, position_m);
+      if (!natural_m) return std::nullopt;
+      height_m = terrain::flattened_height_m(runways_, position_m, *natural_m) +
+                 natural.canopy_m(position_m, zone(position_m));
+    }
+    up_m += ellipsoidal_m(height_m, g.latitude_rad, g.longitude_rad, scene_.datum) - g.height_m;
   }
   return up_m;
 }
