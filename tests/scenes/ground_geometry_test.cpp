@@ -47,6 +47,18 @@ above_ground_m = 60.0
   const std::unique_ptr<Scene> plane =
       tests::good_scene(folder, tests::replaced(text, "[terrain]", "earth = \"plane\"\n[terrain]"));
   CHECK(ground_m(*plane, {10000.0, -10000.0}) == Approx(0.0).epsilon(0.0).margin(1e-9));
+
+  // Level above the geoid, which is another one at every post on a plane Earth too.
+  const std::unique_ptr<Scene> level =
+      tests::good_scene(folder, tests::replaced(tests::replaced(text, "\"ellipsoid\"", "\"egm96\""),
+                                                "[terrain]", "earth = \"plane\"\n[terrain]"));
+  const auto geoid_m = [&](glm::dvec2 post) {
+    const core::Geodetic at = level->frame.to_geodetic({post, 0.0});
+    return terrain::egm96_geoid_height_m(at.latitude_rad, at.longitude_rad);
+  };
+  CHECK(std::abs(geoid_m({10000, 10000}) - geoid_m({0, -7000})) > 0.2);
+  for (const glm::dvec2 post : {glm::dvec2(10000, 10000), glm::dvec2(0, -7000)})
+    CHECK(height_m(*level, post) == Approx(581.0 + geoid_m(post)).epsilon(0.0).margin(1e-4));
 }
 
 TEST_CASE(
