@@ -32,8 +32,8 @@ elseif(FANBEAM_SANITIZER STREQUAL "thread")
   target_link_options(fanbeam_options INTERFACE -fsanitize=thread)
 endif()
 
-# Under the sanitizers: folders without kernels, which unoptimised compile in a third of the time and are tested as
-# quickly, and those whose readers are fuzzed, with the coverage that libFuzzer steers by (a fifth of their compiling).
+# Under the sanitizers: folders without kernels, which unoptimised compile in a third of the time, and those whose readers
+# are fuzzed, with the coverage that libFuzzer steers by (up to a fifth of the compiling).
 set(without_kernels session session_signal measure datasets live)
 set(fuzzed core feeds materials terrain sensors scenes session_signal datasets live)
 function(fanbeam_sanitized target folder)

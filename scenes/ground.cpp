@@ -230,7 +230,7 @@ void Ground::shape(const NaturalGround& natural) {
       field_.height_m[field_.post(i, j)] = *up_m;
       if (i + 1 == field_.columns || j + 1 == field_.rows) continue;
       const glm::dvec2 middle = p + glm::dvec2(field_.spacing_m / 2);
-      core::Geodetic at;  // a third of the time, and land cover alone asks for it
+      core::Geodetic at;  // land cover alone asks for it
       if (natural.has_land_cover()) at = frame_.to_geodetic({middle, *up_m});
       field_.cell_material[field_.cell(i, j)] = natural.material(at, middle, zone(middle));
       if (!covered && natural.is_covered(at)) covered = true;
@@ -252,17 +252,17 @@ void Ground::shape(const NaturalGround& natural) {
 }
 
 // Where a post lies is worked out as seldom as it may, and what stands there too: half of the time in which a scene is
-// opened. The second round asks at the height that the first one found, which on a plane Earth is the same place.
+// opened. On a round Earth a second round asks at the height that the first one found; on a plane one that is the same
+// place.
 std::optional<double> Ground::post_up_m(const NaturalGround& natural, glm::dvec2 position_m) const {
-  const bool plane = frame_.model() == terrain::EarthModel::plane;
-  const bool by_place =
-      natural.elevation() != nullptr || scene_.datum == core::VerticalDatum::egm96;
+  const bool round_earth = frame_.model() != terrain::EarthModel::plane;
+  const bool by_raster = natural.elevation() != nullptr;
   double up_m = 0.0, height_m = 0.0;
-  core::Geodetic g = frame_.origin();
-  for (int round = 0; round < 2; ++round) {
-    if (!plane || (by_place && round == 0)) g = frame_.to_geodetic({position_m, up_m});
-    if (plane) g.height_m = frame_.origin().height_m + up_m;
-    if (round == 0 || natural.elevation() != nullptr) {
+  core::Geodetic g = frame_.origin();  // where nobody asks for latitude and longitude
+  for (int round = 0; round < (round_earth ? 2 : 1); ++round) {
+    if (round_earth || by_raster || scene_.datum == core::VerticalDatum::egm96)
+      g = frame_.to_geodetic({position_m, up_m});
+    if (round == 0 || by_raster) {
       const std::optional<double> natural_m = natural.height_m(g, position_m);
       if (!natural_m) return std::nullopt;
       height_m = terrain::flattened_height_m(runways_, position_m, *natural_m) +

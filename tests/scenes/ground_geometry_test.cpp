@@ -18,9 +18,9 @@ using tests::seen_from_above;
 using tests::standing;
 using tests::TemporaryFolder;
 
-TEST_CASE("T03 level ground falls below the tangent plane as the Earth does", "[ground_geometry]") {
-  const TemporaryFolder folder;
-  const std::string text = R"([scene]
+namespace {
+
+const std::string kLevelGround = R"([scene]
 name = "round"
 origin = { latitude_deg = 47.26, longitude_deg = 11.34, height_m = 581.0 }
 vertical_datum = "ellipsoid"
@@ -31,7 +31,12 @@ spacing_m = 500.0
 at = { latitude_deg = 47.26, longitude_deg = 11.34 }
 above_ground_m = 60.0
 )";
-  const std::unique_ptr<Scene> round = tests::good_scene(folder, text);
+
+}  // namespace
+
+TEST_CASE("T03 level ground falls below the tangent plane as the Earth does", "[ground_geometry]") {
+  const TemporaryFolder folder;
+  const std::unique_ptr<Scene> round = tests::good_scene(folder, kLevelGround);
   // The catalogue's point 10000.9052 m east is 7.8258 m down; the fall grows with the square of the
   // distance.
   CHECK(ground_m(*round, {10000.0, 0.0}) ==
@@ -44,14 +49,17 @@ above_ground_m = 60.0
        {glm::dvec2(10000, 10000), glm::dvec2(-10500, 2500), glm::dvec2(0, -7000)})
     CHECK(height_m(*round, post) == Approx(581.0).epsilon(0.0).margin(1e-4));
 
-  const std::unique_ptr<Scene> plane =
-      tests::good_scene(folder, tests::replaced(text, "[terrain]", "earth = \"plane\"\n[terrain]"));
+  const std::unique_ptr<Scene> plane = tests::good_scene(
+      folder, tests::replaced(kLevelGround, "[terrain]", "earth = \"plane\"\n[terrain]"));
   CHECK(ground_m(*plane, {10000.0, -10000.0}) == Approx(0.0).epsilon(0.0).margin(1e-9));
+}
 
-  // Level above the geoid, which is another one at every post on a plane Earth too.
-  const std::unique_ptr<Scene> level =
-      tests::good_scene(folder, tests::replaced(tests::replaced(text, "\"ellipsoid\"", "\"egm96\""),
-                                                "[terrain]", "earth = \"plane\"\n[terrain]"));
+TEST_CASE("Ground level above the geoid follows it from post to post on a plane Earth too",
+          "[ground_geometry]") {
+  const TemporaryFolder folder;
+  const std::unique_ptr<Scene> level = tests::good_scene(
+      folder, tests::replaced(tests::replaced(kLevelGround, "\"ellipsoid\"", "\"egm96\""),
+                              "[terrain]", "earth = \"plane\"\n[terrain]"));
   const auto geoid_m = [&](glm::dvec2 post) {
     const core::Geodetic at = level->frame.to_geodetic({post, 0.0});
     return terrain::egm96_geoid_height_m(at.latitude_rad, at.longitude_rad);
