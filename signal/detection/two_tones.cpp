@@ -12,10 +12,10 @@ namespace fanbeam::signal {
 namespace {
 
 constexpr double kReach = 1.6, kStep = 0.1, kFinest = 1e-5;  // bins
-constexpr double kLeastApart = 1.0 / 3.0;
-constexpr double kLeastShare = 0.01;  // of the stronger one's power
-constexpr double kModelError = 1e-4;  // of the energy
-constexpr double kCloser = 0.02;      // places nearer than that are one
+constexpr double kLeastShare = 0.003;                        // of the stronger one's power
+constexpr double kModelError = 1e-4;                         // of the energy
+constexpr double kCloser = 0.02;                             // places nearer than that are one
+constexpr int kMostMoves = 8;
 
 using Sums = std::vector<std::complex<double>>;  // of every record
 
@@ -125,6 +125,20 @@ Places best_near(const Correlator& correlator, const Places& centre, double reac
   return best;
 }
 
+// Of two in phase a coarser grid finds the middle and not how far they are apart: its best place may be beyond the
+// finer one's edge, which then moves.
+Places best_about(const Correlator& correlator, Places best, double step) {
+  const double reach = 4.0 * step;
+  for (int move = 0; move < kMostMoves; ++move) {
+    const Places next = best_near(correlator, best, reach, step);
+    const double moved =
+        std::max(std::abs(next.first - best.first), std::abs(next.second - best.second));
+    best = next;
+    if (moved < reach - 0.5 * step) break;
+  }
+  return best;
+}
+
 double energy_of_one(const Correlator& correlator, double near_bin) {
   double centre = near_bin, best = -1.0;
   for (double step = 0.3; step > kFinest; step *= 0.5) {
@@ -159,7 +173,8 @@ bool leaves_more(const Correlator& correlator, double bin, double noise_W) {
 }  // namespace
 
 std::optional<std::pair<Tone, Tone>> two_tones(const ToneRecords& records, double near_bin,
-                                               double curvature_bins, double noise_W) {
+                                               double curvature_bins, double noise_W,
+                                               double least_apart_bins) {
   if (records.empty() || records.front().size() < 2)
     refuse("samples", records.empty() ? 0.0 : static_cast<double>(records.front().size()),
            "2 or more");
@@ -172,11 +187,11 @@ std::optional<std::pair<Tone, Tone>> two_tones(const ToneRecords& records, doubl
   if (std::max(near_bin - best.first, best.second - near_bin) > kReach - kStep)
     best = best_near(correlator, {middle, middle, 0.0}, kReach, kStep);
   for (double step = 0.25 * kStep; step > kFinest; step *= 0.25)
-    best = best_near(correlator, best, 4.0 * step, step);
+    best = best_about(correlator, best, step);
   const auto c = static_cast<double>(correlator.records());
   const double gained = best.energy - energy_of_one(correlator, near_bin);
   if (!(gained > noise_W * (c + 6.0 * std::sqrt(c) + 20.0) && gained > kModelError * best.energy) ||
-      best.second - best.first < kLeastApart)
+      best.second - best.first < least_apart_bins)
     return std::nullopt;
   const Sums p = correlator.at(best.first), q = correlator.at(best.second);
   const double apart = best.second - best.first;

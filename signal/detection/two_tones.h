@@ -9,8 +9,8 @@
 // is at the edge of that, and finer about its best place, down to 2.4e-5 bins.
 // Two rather than one: E is larger than one tone's by more than noise gives (C records of variance s2:
 // s2 (C + 6 sqrt(C) + 20), in less than one of a million) and by more than 1e-4 of it, which is what
-// side lobes and bent tones leave; they are a third of a bin apart or more, and the weaker has a
-// hundredth of the power.
+// side lobes and bent tones leave; they are `least_apart_bins` apart or more, and the weaker has a
+// three-hundredth of the power.
 // Source: S. M. Kay, "Fundamentals of Statistical Signal Processing" I, 1993, 7.4 and 13. Inputs: as of
 // refined_tone, without weights; `curvature` bends all tones alike, which is taken off: the frequency
 // grows by so many bins from the first sample to the last. Accuracy above threshold: the Cramer-Rao
@@ -26,6 +26,7 @@
 namespace fanbeam::signal {
 
 std::optional<std::pair<Tone, Tone>> two_tones(const ToneRecords& records, double near_bin,
-                                               double curvature_bins, double noise_W);
+                                               double curvature_bins, double noise_W,
+                                               double least_apart_bins = 1.0 / 3.0);
 
 }  // namespace fanbeam::signal
