@@ -1,6 +1,6 @@
-// A state estimate: mean and covariance of up to eight numbers, as plain data.
+// A state estimate: mean and covariance of up to eleven numbers, as plain data.
 //
-// Planar states hold (x, y, vx, vy) and then (ax, ay) or the parts of the turn rate, x forward
+// Planar states hold (x, y, vx, vy) and then (ax, ay) or the parts of turn rate and acceleration, x forward
 // and y to the right of the radar; states of one axis hold (r, v) and then the acceleration. All in SI.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace fanbeam::tracking {
 
-inline constexpr int kMostStates = 8;
+inline constexpr int kMostStates = 11;
 inline constexpr int kMostMeasured = 3;
 
 using StateVector = std::array<double, kMostStates>;

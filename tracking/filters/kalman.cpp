@@ -56,7 +56,7 @@ void check(const Gaussian& state, const Observation& observation) {
   if (state.size < 1 || state.size > kMostStates || observation.size < 1 ||
       observation.size > kMostMeasured)
     core::throw_input_error(core::ErrorClass::range, "observation.size", observation.size,
-                            "1 to 3, of a state of 1 to 6");
+                            "1 to 3, of a state of 1 to 11");
   for (std::size_t i = 0; i < static_cast<std::size_t>(observation.size); ++i) {
     if (!std::isfinite(observation.residual[i]) || !std::isfinite(observation.noise[i]))
       core::throw_input_error(core::ErrorClass::nonfinite, "observation", observation.residual[i],

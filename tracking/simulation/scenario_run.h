@@ -18,10 +18,10 @@ namespace fanbeam::tracking {
 inline constexpr double kMatch_m = 3.0;
 
 // Straight on with an unknown acceleration of standard deviation `acceleration_mps2` in each step, a smooth
-// turn with 0.25 m/s2 along its way, steered at 5.4 deg/s (standard deviation) for a second beside a bend that
-// lasts, or a manoeuvre: an acceleration of any size that changes by 17 m/s2 in a second along the road, 1.7
-// across it; each left after 10 s on average. Speeds
-// are measured to millimetres per second, so that a target that brakes leaves the straight model at once,
+// turn with 0.06 m/s2 along its way, steered at 3.4 deg/s (standard deviations) for a second beside a bend that
+// lasts, or a manoeuvre: an acceleration of any size that changes by 45 m/s2 in a second along the road, 4.5
+// across it; each left after 45 s on average. Speeds
+// are measured to millimetres per second, so that a target that brakes leaves the smooth models at once,
 // and comes back to it when it drives on; the larger `acceleration_mps2`, the less is known of who is who
 // after a crossing. Tracks coast for `coast_s` without a measurement. A radar of one element tells no
 // azimuth: then range alone is tracked, at constant speed with the same acceleration, which loses what
