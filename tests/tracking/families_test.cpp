@@ -102,14 +102,15 @@ TEST_CASE("A track that begins on a pair's one echo does not keep the pair from 
   }
 }
 
-// Of any speeds, near and far. Where far cars were told the errors of near ones that their coarse place was merged of,
-// the mean NEES of these was 90 250.
+// Of any speeds, near and far, and past the radar by half a metre at least: 4 cm before it, where two came through it, a
+// point's bound is below what linearising leaves. Where far cars were told the errors of near ones that their coarse place
+// was merged of, the mean NEES of these was 90 250.
 core::HighwayScenario six_of_any_speed(int run, double) {
   std::vector<core::HighwayTarget> cars;
   for (std::uint64_t i = 0; i < 6; ++i)
     cars.push_back(road_car(std::array{"A", "B", "C", "D", "E", "F"}[i],
                             road_uniform(run, 10 + i, 15.0, 150.0),
-                            std::floor(road_uniform(run, 30 + i, -1.0, 2.0)) * 3.7,
+                            std::floor(road_uniform(run, 30 + i, -1.0, 2.0)) * 3.7 + 0.5,
                             kRoadSpeed_mps + road_uniform(run, 50 + i, -30.0, 30.0)));
   return road_scene(3.0, kRoadSpeed_mps, cars);
 }
@@ -196,8 +197,10 @@ TEST_CASE("From samples, a car on a ring road is not taken for the post beside i
   const FamilyScore score =
       score_of(RoadFamily{"S4", [](int, double) { return beaming(); }}, 2, true);
   INFO(words_of(score));
-  CHECK(score.mota() >= 0.97);
+  CHECK(score.mota() >=
+        0.985);  // 0.982 where range and speed were of both for as long as they shared them
   CHECK(score.without_switch() == 2);
+  CHECK(score.nees.mean() >= mean_interval(4, 2).low);  // 1.02, likewise
 }
 
 TEST_CASE("Tracks of S1 to S3 are as good as they say in all four states",
@@ -212,16 +215,14 @@ TEST_CASE("Tracks of S1 to S3 are as good as they say in all four states",
   }
 }
 
-// A car on a ring around the radar passes a post of the same range: within a beam of it, for a second, the two are one
-// measurement, told as wrong by what two targets anywhere in a cell may be, while these two are at exactly one range,
-// which no radar knows. Where beats merged by frequency alone, in whatever direction, 1.65 and a MOTA of 0.982.
-TEST_CASE(
-    "Tracks of S4 err by less than told where two targets are one measurement, and only there",
-    "[tracker][statistics]") {
+// A car on a ring around the radar passes a post of the same range: within a sixth of c / (N d) of it, for a fifth of a
+// second, the two are one measurement and their tracks coast. Where turns were linearised, acceleration along the way was
+// white and beats merged within a beam it was 2.69.
+TEST_CASE("Tracks of S4 err by little less than told", "[tracker][statistics]") {
   const FamilyScore score =
       score_of(RoadFamily{"S4", [](int, double) { return beaming(); }}, kRuns);
   INFO(words_of(score));
   CHECK(score.mota() >= 0.985);
-  CHECK(score.nees.mean() >= 2.5);
+  CHECK(score.nees.mean() >= 3.3);
   CHECK(score.nees.mean() <= mean_interval(4, kRuns).high);
 }

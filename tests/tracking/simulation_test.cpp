@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <tuple>
 
 #include "core/decibel.h"
 #include "core/errors.h"
@@ -234,15 +235,17 @@ TEST_CASE("Merged beats say how wrong they may be, lone ones that they are right
       CHECK(one.azimuth_systematic_rad == 0.0);
     }
   }
-  // Two cars of one strength, through each other in 2 s. A beat of two is at most 0.6 bin from
-  // either, sqrt(3) times what it says, on either ramp.
+  // Two cars of one strength, through each other in 2 s, 33 dB above the noise so that the array has one direction of
+  // both. A beat of two is at most 0.6 bin from either, sqrt(3) times what it says, on either ramp.
   const core::HighwayScenario scenario = slow_crossing();
+  core::HighwayRadar radar = highway_radar();
+  radar.transmitted_W *= 1e-3;
   int merged = 0, lone = 0, beyond = 0;
   for (int frame = 80; frame < 160; ++frame) {
     std::vector<core::HighwayTruth> truth;
     for (const core::HighwayTarget& target : scenario.targets)
       truth.push_back(truth_at(target, scenario.radar_speed_mps, highway_radar(), frame * 0.05));
-    for (const auto& one : simulated_frame(scenario, highway_radar(), {}, 9, 0, frame)) {
+    for (const auto& one : simulated_frame(scenario, radar, {}, 9, 0, frame)) {
       const auto& own = truth[one.azimuth_rad < -0.03 ? 1 : 0];
       beyond += std::abs(one.range_m - own.range_m) >
                     std::sqrt(6.0) * one.range_systematic_m + 6.0 * one.range_sigma_m ||
@@ -257,8 +260,9 @@ TEST_CASE("Merged beats say how wrong they may be, lone ones that they are right
   CHECK(beyond <= (merged + lone) / 20);
 }
 
-// The array's beam is 8.5 degrees wide: 0.148 in the sine of the azimuth.
-TEST_CASE("Beats of one frequency merge within a beam, and beyond it with one direction alone",
+// A sixth of c / (N d), where the array tells two: 0.0278 in the sine of the azimuth; more where cars are weaker, 0.149 where
+// 25 dB leave (720 27 / 316)^(1/4) / pi = 0.89 of it. A coded stretch has the array's beam, 8.5 degrees or 0.148.
+TEST_CASE("Beats of one frequency merge within a direction, and beyond it with one direction alone",
           "[highway]") {
   const auto cars = [](double apart) {
     // Two standing cars, 30 m away.
@@ -266,21 +270,27 @@ TEST_CASE("Beats of one frequency merge within a beam, and beyond it with one di
                  {car("A", 30.0, 0.0, 0.0),
                   car("B", 30.0 * std::sqrt(1.0 - apart * apart), 30.0 * apart, 0.0)});
   };
-  const auto merged = [&](double apart, Scheme scheme, int elements) {
+  const auto merged = [&](double apart, Scheme scheme, int elements, double weaker = 1.0) {
     core::HighwayRadar radar = highway_radar();
     radar.array_elements = elements;
+    radar.transmitted_W *= weaker;
     SimulationSettings settings;
     settings.scheme = scheme;
     const auto seen = simulated_frame(cars(apart), radar, settings, 9, 0, 3);
     return std::any_of(seen.begin(), seen.end(),
                        [](const RadarMeasurement& one) { return one.range_systematic_m > 0.0; });
   };
-  for (const Scheme scheme : {Scheme::two_stage, Scheme::coded}) {
-    CHECK(merged(0.13, scheme, 12));
-    CHECK_FALSE(merged(0.17, scheme, 12));
+  const double to_25_dB =
+      std::pow(10.0, 2.5) / measurement_bound(highway_radar(), 10.0, 30.0, 0.0).signal_to_noise;
+  CHECK(merged(0.12, Scheme::two_stage, 12, to_25_dB));
+  CHECK_FALSE(merged(0.18, Scheme::two_stage, 12, to_25_dB));
+  for (const auto& [scheme, one, two] :
+       {std::tuple{Scheme::two_stage, 0.025, 0.031}, {Scheme::coded, 0.13, 0.17}}) {
+    CHECK(merged(one, scheme, 12));
+    CHECK_FALSE(merged(two, scheme, 12));
     const auto apart = simulated_frame(
         cars(0.17), highway_radar(),
-        [&] {
+        [&, scheme = scheme] {
           SimulationSettings settings;
           settings.scheme = scheme;
           return settings;

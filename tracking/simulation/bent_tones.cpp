@@ -13,9 +13,6 @@ constexpr int kMostTurns = 12;
 constexpr double kTolerance_bins = 1e-7;
 constexpr double kStraight_bins = 1e-4;  // a bend that moves nothing
 constexpr double kOwnPeak = 1.0;         // bins
-// Bins within which main lobes overlap. Beyond, side lobes alone pull, and one turn takes that off to a
-// thousandth.
-constexpr double kTouching = 3.5;
 
 // exp(j 2 pi (b n / N + c t^2 / 2)), each from the one before: the step turns by the same at every
 // sample.
@@ -53,7 +50,7 @@ signal::Tone refined(const signal::ToneRecords& records, const BentPeak& near,
 
 bool touches(const std::vector<BentPeak>& peaks, std::size_t one, double count) {
   for (std::size_t i = 0; i < peaks.size(); ++i)
-    if (i != one && bins_apart(peaks[i].bin, peaks[one].bin, count) < kTouching) return true;
+    if (i != one && bins_apart(peaks[i].bin, peaks[one].bin, count) < kTouching_bins) return true;
   return false;
 }
 

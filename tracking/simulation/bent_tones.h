@@ -18,6 +18,8 @@ namespace fanbeam::tracking {
 
 // Taking turns ends where none moves by more: 0.06 mm of 250 MHz.
 inline constexpr double kStill_bins = 1e-4;
+// Within which main lobes overlap. Beyond, side lobes alone pull, and one turn takes that off to a thousandth.
+inline constexpr double kTouching_bins = 3.5;
 
 struct BentPeak {
   double bin = 0.0, curvature_bins = 0.0;

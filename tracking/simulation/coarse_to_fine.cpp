@@ -1,16 +1,20 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "core/constants.h"
 #include "signal/pairing/ghost_free.h"
+#include "tracking/simulation/directions.h"
 #include "tracking/simulation/simulation_private.h"
 
 namespace fanbeam::tracking {
 namespace {
 
-constexpr double kBeamwidth = 0.8859;
+// Of two waves in phase, x of c / (N d) apart, one leaves (pi x)^4 / 720 of the energy; that has to be more than noise
+// gives (signal/detection/two_tones.h, one record).
+constexpr double kSurelyMore = 27.0, kBeamCells = 0.8859;
 constexpr double kMostMisfit = 4.0;  // of directions, over what they may be apart
 
 // Targets that the coarse stage cannot tell apart become one.
@@ -44,11 +48,11 @@ std::vector<Seen> coarse_targets(const std::vector<Seen>& targets, const core::H
       wavelength_m /
       (2.0 * (coded ? radar.waveforms.flat_s
                     : radar.waveforms.coarse_chirps * radar.waveforms.coarse_chirp_s));
-  const double beam = beam_rad(radar);
   return merged(targets, [&](const Seen& a, const Seen& b) {
     return (coded || std::abs(a.range_m - b.range_m) < settings.merge_bins * cell_m) &&
            std::abs(a.rate_mps - b.rate_mps) < settings.merge_bins * cell_mps &&
-           std::abs(std::sin(a.azimuth_rad) - std::sin(b.azimuth_rad)) < beam;
+           std::abs(std::sin(a.azimuth_rad) - std::sin(b.azimuth_rad)) <
+               one_direction(radar, settings.scheme, std::min(a.power, b.power));
   });
 }
 
@@ -98,9 +102,10 @@ double direction_misfit(const RampPeaks& peaks, const PairOfPeaks& pair, double 
 
 // The beats that may come from where a coarse target is seen; all for a radar that has no directions.
 std::vector<double> from_direction(const Peaks& peaks, const Seen& target,
-                                   const core::HighwayRadar& radar) {
+                                   const core::HighwayRadar& radar, Scheme scheme) {
   if (radar.array_elements < 2) return peaks.Hz;
-  const double own_rad = target.bound.azimuth_sigma_rad + (target.merged ? beam_rad(radar) : 0.0);
+  const double own_rad = target.bound.azimuth_sigma_rad +
+                         (target.merged ? one_direction(radar, scheme, target.power) : 0.0);
   std::vector<double> result;
   for (std::size_t i = 0; i < peaks.Hz.size(); ++i)
     if (std::abs(peaks.azimuth_rad[i] - target.azimuth_rad) <=
@@ -142,8 +147,11 @@ void add_pairs_of_speed(const signal::TriangleModel& fine, const RampPeaks& peak
 
 }  // namespace
 
-double beam_rad(const core::HighwayRadar& radar) {
-  return kBeamwidth / (radar.array_elements * radar.array_pitch_wavelengths);
+double one_direction(const core::HighwayRadar& radar, Scheme scheme, double signal_to_noise) {
+  if (radar.array_elements < 2) return std::numeric_limits<double>::infinity();
+  const double in_phase = std::pow(720.0 * kSurelyMore / signal_to_noise, 0.25) / core::kPi;
+  const double cells = scheme == Scheme::coded ? kBeamCells : std::max(kLeastDirections, in_phase);
+  return cells / (radar.array_elements * radar.array_pitch_wavelengths);
 }
 
 std::vector<RadarMeasurement> coarse_to_fine(
@@ -164,8 +172,8 @@ std::vector<RadarMeasurement> coarse_to_fine(
         std::max(sigma.radial_speed_mps, settings.coarse_speed_sigma_mps);
     const std::optional<signal::RangeSpeed> refined =
         signal::refine_two_stage({place},
-                                 {fine, from_direction(peaks.up, coarse[i], radar),
-                                  from_direction(peaks.down, coarse[i], radar)},
+                                 {fine, from_direction(peaks.up, coarse[i], radar, settings.scheme),
+                                  from_direction(peaks.down, coarse[i], radar, settings.scheme)},
                                  options)
             .front();
     if (settings.scheme == Scheme::coded && (!refined || coarse[i].merged)) {
@@ -176,8 +184,11 @@ std::vector<RadarMeasurement> coarse_to_fine(
     const PairOfPeaks pair = peaks_at(fine, peaks, *refined);
     RadarMeasurement measured = with_sigmas(*refined, coarse[i].azimuth_rad, coarse[i].bound);
     state_spread(fine, peaks, pair, measured);
-    // Two directions, evenly up to a beam apart, as for merged beats.
-    if (coarse[i].merged) measured.azimuth_systematic_rad = beam_rad(radar) / std::sqrt(12.0);
+    // Two directions, evenly as far apart as one may be, as for merged beats; half a circle for one receiver.
+    if (coarse[i].merged)
+      measured.azimuth_systematic_rad =
+          std::min(core::kPi, one_direction(radar, settings.scheme, coarse[i].power)) /
+          std::sqrt(12.0);
     found.add(measured, pair);
   }
   add_pairs_of_speed(fine, peaks, by_speed_alone, radar, settings, found);

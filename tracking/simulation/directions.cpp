@@ -21,9 +21,10 @@ constexpr double kApart = 1.5;
 
 // Waves of one peak: an array of even pitch sees them as two tones. Its y counts to the left, azimuths to the right.
 std::vector<double> of_one_peak(const Snapshot& snapshot, double pitch_wavelengths,
-                                double alone_rad, double noise_W) {
+                                double alone_rad, double noise_W, double least_apart) {
   const double bins = -static_cast<double>(snapshot.size()) * pitch_wavelengths;
-  const auto two = signal::two_tones({snapshot}, bins * std::sin(alone_rad), 0.0, noise_W);
+  const auto two =
+      signal::two_tones({snapshot}, bins * std::sin(alone_rad), 0.0, noise_W, least_apart);
   if (!two) return {alone_rad};
   const auto& [left, right] = *two;
   const double first = left.bin / bins, second = right.bin / bins;
@@ -38,13 +39,13 @@ std::vector<double> of_one_peak(const Snapshot& snapshot, double pitch_wavelengt
 
 std::vector<double> directions_rad(const Snapshot& snapshot,
                                    const std::vector<glm::dvec3>& elements_m, double wavelength_m,
-                                   double beam_sine, double noise_W) {
+                                   double beam_sine, double noise_W, double least_apart) {
   signal::AnglePeak first = signal::azimuth_peak(snapshot, elements_m, wavelength_m);
   const double alone_rad = first.azimuth_rad;
   const auto as_one_peak = [&] {
     if (elements_m.size() < 2) return std::vector<double>{alone_rad};
     const double pitch_m = elements_m[1].y - elements_m[0].y;
-    return of_one_peak(snapshot, pitch_m / wavelength_m, alone_rad, noise_W);
+    return of_one_peak(snapshot, pitch_m / wavelength_m, alone_rad, noise_W, least_apart);
   };
   signal::AnglePeak second;
   Snapshot other(snapshot.size());  // the second wave
@@ -79,6 +80,15 @@ std::vector<double> direction_sigmas_rad(const Snapshot& snapshot,
     sigmas.push_back(std::min(0.5 / aperture, std::sqrt(bounds[i].variance_bins2) /
                                                   (aperture * std::cos(directions_rad[i]))));
   return sigmas;
+}
+
+bool is_lone_wave(const Snapshot& snapshot, const std::vector<glm::dvec3>& elements_m,
+                  double wavelength_m, double azimuth_rad, double share, double noise_W) {
+  const signal::PlaneWave wave = signal::wave_from(snapshot, elements_m, wavelength_m, azimuth_rad);
+  double all = 0.0, rest = 0.0;
+  for (const auto& value : snapshot) all += std::norm(value);
+  for (const auto& value : signal::without(snapshot, wave.values)) rest += std::norm(value);
+  return rest < share * all + 4.0 * noise_W;
 }
 
 }  // namespace fanbeam::tracking

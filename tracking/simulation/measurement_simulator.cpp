@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -66,12 +67,13 @@ void add_merged(const Peaks& beats, const std::vector<std::size_t>& order, doubl
   }
 }
 
-// What beats have to be closer than to merge: in frequency and in the sine of their azimuths.
+// How near beats merge: in bins, and in the sine of their azimuths for the ratio of the weaker one.
 struct Cell {
-  double bins, beam;
+  double bins;
+  std::function<double(double)> direction;
 };
 
-Peaks merged(const Peaks& beats, double closer_than_Hz, double beam) {
+Peaks merged(const Peaks& beats, double closer_than_Hz, const Cell& cell) {
   std::vector<std::size_t> order(beats.Hz.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto across = [&](std::size_t i) { return std::sin(beats.azimuth_rad[i]); };
@@ -79,7 +81,9 @@ Peaks merged(const Peaks& beats, double closer_than_Hz, double beam) {
             [&](std::size_t a, std::size_t b) { return across(a) < across(b); });
   Peaks peaks;
   for (auto first = order.begin(); first != order.end();) {
-    const auto apart = [&](std::size_t a, std::size_t b) { return across(b) - across(a) >= beam; };
+    const auto apart = [&](std::size_t a, std::size_t b) {
+      return across(b) - across(a) >= cell.direction(std::min(beats.power[a], beats.power[b]));
+    };
     auto last = std::adjacent_find(first, order.end(), apart);
     if (last != order.end()) ++last;
     std::vector<std::size_t> group(first, last);
@@ -111,8 +115,7 @@ RampPeaks peaks_of(const signal::TriangleModel& model, double later_s,
     }
   }
   const double closer_than_Hz = cell.bins * model.bin_Hz();
-  return {merged(beats.up, closer_than_Hz, cell.beam),
-          merged(beats.down, closer_than_Hz, cell.beam)};
+  return {merged(beats.up, closer_than_Hz, cell), merged(beats.down, closer_than_Hz, cell)};
 }
 
 std::size_t nearest(const std::vector<double>& values, double to) {
@@ -247,9 +250,10 @@ std::vector<RadarMeasurement> simulated_frame(const core::HighwayScenario& scena
   const signal::PairingLimits limits{0.0, 1.1 * radar.most_range_m, settings.most_speed_mps};
   const bool by_direction =
       settings.scheme == Scheme::two_stage || settings.scheme == Scheme::coded;
-  const Cell cell{settings.merge_bins, by_direction && radar.array_elements > 1
-                                           ? beam_rad(radar)
-                                           : std::numeric_limits<double>::infinity()};
+  const Cell cell{settings.merge_bins, [&](double signal_to_noise) {
+                    return by_direction ? one_direction(radar, settings.scheme, signal_to_noise)
+                                        : std::numeric_limits<double>::infinity();
+                  }};
   const RampPeaks peaks = peaks_of(first, 0.0, targets, cell, radar.ramp_s, draws, 1);
   std::vector<RadarMeasurement> result;
   if (by_direction) {

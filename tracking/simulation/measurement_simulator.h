@@ -6,15 +6,19 @@
 // budget, two ways):
 //   beats      of signal/pairing/triangle.h, normal errors sqrt(6/e) / (2 pi T); those of one ramp
 //              closer than 1.2 bins become one at their mean, weighted with power; with two stages or a
-//              coded stretch, which take beats by their direction, only those of one beam (0.886 lambda / N d)
+//              coded stretch, which take beats by their direction, only those of one direction (below)
 //   azimuth    normal error sqrt(6/(r N (N^2-1))) / (2 pi d/lambda cos azimuth), r = e / N
 //   coarse     (two stages) range and speed with errors of 0.3 m and 0.3 m/s, refined by beats of the same direction; targets that share
-//              the cells of range and speed (1.2 wide each) and the beam (0.886 lambda / N d)
+//              the cells of range and speed (1.2 wide each) and the direction
 //              become one, weighted with power; one that no pair of beats fits is dropped
 //   coarse     (coded) speed from a flat stretch (2 ms), range from the phase between its two
 //              tones (700 kHz apart), both with the errors of their bounds, c / (4 pi df) sqrt(2 / e)
-//              in range; targets that share the cell of speed and the beam become one. Of such
+//              in range; targets that share the cell of speed and the direction become one. Of such
 //              ones, and of one that no pair fits, all pairs of beats within 1.2 cells of its speed
+//   direction  two within x lambda / (N d) in the sine of the azimuth: 0.886, the array's beam, for a coded stretch; for two
+//              stages what is told apart from samples (beat_waves.h), 1/6, or where the weaker has the ratio e the x at which
+//              two waves in phase leave no more than noise of one, (pi x)^4 e / 720 = 27. Beyond, each has its own bound,
+//              which near by is less than there is: 1.3 times in range and 2.4 to 9 in azimuth at half of lambda / (N d)
 // Schemes: one triangle with all pairs, or with pairs in the order of range, two slopes, two
 // stages, and a coded stretch between the ramps of one triangle, both refined as of
 // signal/pairing/ghost_free.h. The azimuth of a pair is the mean of those of its two beats, and
@@ -23,8 +27,8 @@
 // false measurements are Poisson, uniform in range, speed and azimuth.
 // Fluctuation: cases 1 and 2 anew in every frame, chi-square of 2 degrees, 3 and 4 of 4.
 // Systematic errors told: none for lone beats; for merged ones, which a radar knows by their width
-// and an array by their directions, what follows from beats evenly up to 1.2 bins apart, and from a
-// beam between directions.
+// and an array by their directions, what follows from beats evenly up to 1.2 bins apart, and from directions
+// evenly as far apart as one may be.
 // Source: rates of misses and ghosts as in tests/signal/pairing_rates_test.cpp; bounds as in
 // measurement_bound.h.
 // Neglected: side lobes and masking (all targets in view are detected alike), side lobes of the

@@ -10,10 +10,9 @@
 namespace fanbeam::tracking {
 namespace {
 
-constexpr double kSeenReach = 2.5;  // bins
-constexpr double kOneLobe = 2.4;    // bins between peaks within which taking turns may not end
-constexpr double kOneTone = 0.3;    // nearer, two that are not told apart are one
-constexpr double kBeside = 6.0;     // bins from two tones that were one, within which that mattered
+constexpr double kOneLobe = 2.4;  // bins between peaks within which taking turns may not end
+constexpr double kOneTone = 0.3;  // nearer, two that are not told apart are one
+constexpr double kBeside = 6.0;   // bins from two tones that were one, within which that mattered
 constexpr double kSideLobes = 12.0;  // bins
 constexpr double kFaint = 1e-3;      // of the power of the tone whose side lobe it may be
 constexpr int kMoreTurns = 6;
@@ -30,7 +29,7 @@ std::vector<Peak> peaks_at(const std::vector<double>& bins, const std::vector<Be
   std::vector<Peak> peaks;
   for (const double bin : bins) {
     Peak peak{{bin, 0.0}, Kind::unseen, peaks.size()};
-    double apart = kSeenReach;
+    double apart = kSeenReach_bins;
     for (const BentPeak& place : seen) {
       if (bins_apart(place.bin, bin, count) >= apart) continue;
       apart = bins_apart(place.bin, bin, count);
@@ -79,7 +78,7 @@ double spread_of_bends(const std::vector<BentPeak>& seen, double bin, double cou
   double low = 0.0, high = 0.0;
   bool any = false;
   for (const BentPeak& place : seen) {
-    if (bins_apart(place.bin, bin, count) >= kSeenReach) continue;
+    if (bins_apart(place.bin, bin, count) >= kSeenReach_bins) continue;
     low = any ? std::min(low, place.curvature_bins) : place.curvature_bins;
     high = any ? std::max(high, place.curvature_bins) : place.curvature_bins;
     any = true;

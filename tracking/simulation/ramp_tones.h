@@ -17,6 +17,9 @@
 
 namespace fanbeam::tracking {
 
+// How far from a coarse place a tone may be that is its target's.
+inline constexpr double kSeenReach_bins = 2.5;
+
 struct RampTone {
   BentTone bent;
   int peak = 0;              // two tones that make one peak share it

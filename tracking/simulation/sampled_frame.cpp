@@ -8,7 +8,6 @@
 #include "core/errors.h"
 #include "core/random.h"
 #include "signal/angle/angle_peak.h"
-#include "signal/angle/plane_wave.h"
 #include "signal/detection/cfar_calibration.h"
 #include "signal/detection/map_peaks.h"
 #include "signal/receiver/link_budget.h"
@@ -101,18 +100,8 @@ bool over_side_lobes(const signal::CfarCell& cell, double strongest_W) {
   return cell.margin * cell.background_W > cell.background_W + side_W;
 }
 
-// Of what neighbours and noise leave beside a wave: shares of its energy.
-constexpr double kFineLeft = 1e-4, kCoarseLeft = 2e-4;
-
-// Whether the wave from there is all but `share` of the energy, and four times the noise.
-bool is_lone_wave(const signal::Snapshot& snapshot, const std::vector<glm::dvec3>& elements_m,
-                  double wavelength_m, double azimuth_rad, double share, double noise) {
-  const signal::PlaneWave wave = signal::wave_from(snapshot, elements_m, wavelength_m, azimuth_rad);
-  double all = 0.0, rest = 0.0;
-  for (const auto& value : snapshot) all += std::norm(value);
-  for (const auto& value : signal::without(snapshot, wave.values)) rest += std::norm(value);
-  return rest < share * all + 4.0 * noise;
-}
+// Of what neighbours leave beside a wave: its share of the energy.
+constexpr double kCoarseLeft = 2e-4;
 
 }  // namespace
 
@@ -225,11 +214,11 @@ std::vector<RadarMeasurement> SampledRadar::measure(const core::HighwayScenario&
     places.push_back(folded(one));
     all.insert(all.end(), places.back().begin(), places.back().end());
   }
-  SampledBeats beats =
+  const SampledBeats beats =
       triangle_beats(received(kFine), model, fine_rate_Hz,
-                     signal::noise_sample_W(radar_.noise_figure, fine_rate_Hz), all);
-  find_directions(beats.up);
-  find_directions(beats.down);
+                     signal::noise_sample_W(radar_.noise_figure, fine_rate_Hz), all,
+                     {signal::virtual_elements_m(array_), axes_.wavelength_m,
+                      radar_.array_pitch_wavelengths, beam_sine()});
   std::vector<Found> found;
   const std::vector<Pair> bests = best_pairs(model, beats, places, detections);
   for (std::size_t i = 0; i < detections.size(); ++i)
@@ -246,26 +235,6 @@ std::vector<RadarMeasurement> SampledRadar::measure(const core::HighwayScenario&
   std::vector<RadarMeasurement> result;
   for (const Found& one : found) result.push_back(measured(beats, one));
   return result;
-}
-
-// Direction of every beat, and whether one plane wave is all that it has.
-void SampledRadar::find_directions(std::vector<Beat>& beats) const {
-  const auto elements_m = signal::virtual_elements_m(array_);
-  if (elements_m.size() < 2) return;
-  for (Beat& beat : beats) {
-    beat.azimuth_rad =
-        signal::azimuth_peak(beat.amplitudes, elements_m, axes_.wavelength_m).azimuth_rad;
-    beat.azimuth_sigma_rad =
-        bound_at(radar_, beat.signal_to_noise / beat.amplitude_noise_ratio, beat.azimuth_rad)
-            .azimuth_sigma_rad;
-    // Noise of the amplitudes of all channels.
-    double all = 0.0;
-    for (const auto& value : beat.amplitudes) all += std::norm(value);
-    const auto channels = static_cast<double>(beat.amplitudes.size());
-    beat.lone_wave =
-        is_lone_wave(beat.amplitudes, elements_m, axes_.wavelength_m, beat.azimuth_rad, kFineLeft,
-                     beat.amplitude_noise_ratio * all * channels / beat.signal_to_noise);
-  }
 }
 
 // At the turnaround of the triangle.

@@ -18,11 +18,10 @@ constexpr double kCoarse_cells = 0.5, kCoarse_dopplers = 0.78;
 // pulled by neighbours in range and speed; farther apart two directions are two coarse detections.
 constexpr double kAgree = 0.04, kPulled = 0.0034, kOneCell = 0.6;
 constexpr double kMostDisagreement = 4.0;  // two standard deviations, squared
-// What taking turns leaves where it ends (bent_tones.h).
-constexpr double kSettled_bins = 2e-4;
 // Two tones that are one beat are up to 0.7 bins apart: evenly.
 constexpr double kMerged_bins = 0.7 * 0.28868;  // 1 / sqrt(12)
-constexpr double kSure = 9.0;                   // three standard deviations, squared
+constexpr double kMostAcross_mps = 70.0;
+constexpr double kSure = 9.0;  // three standard deviations, squared
 constexpr double kNowhere_Hz = 1e15;
 constexpr double kTaken = 4.0;  // as much misfit as a beat is worth that another pair has
 
@@ -299,14 +298,18 @@ RadarMeasurement SampledRadar::measured(const SampledBeats& beats, const Found& 
   // Of a beat that is off by a bin.
   const double per_bin_m = 0.25 * core::kSpeedOfLight_mps / radar_.bandwidth_Hz;
   const double per_bin_mps = 0.25 * waveform_.wavelength_m() / radar_.ramp_s;
-  const double bins = one.merged_bins + kSettled_bins;
+  const double bins =
+      one.merged_bins + std::max(beats.up[one.up].settled_bins, beats.down[one.down].settled_bins);
+  // A target across the line of sight bends its range, by v^2 / R, which the ramps see half a ramp from the turnaround.
+  const double bend_m = std::pow(kMostAcross_mps * fine_.up_middle_s, 2) /
+                        (2.0 * std::sqrt(3.0) * std::max(1.0, one.place.range_m));
   return {one.place.range_m,
           one.place.radial_speed_mps,
           one.azimuth_rad,
           2.0 * per_bin_m * radar_.ramp_s * sigma_Hz,
           2.0 * per_bin_mps * radar_.ramp_s * sigma_Hz,
           one.azimuth_sigma_rad,
-          bins * per_bin_m,
+          std::hypot(bins * per_bin_m, bend_m),
           bins * per_bin_mps,
           one.azimuth_systematic_rad};
 }

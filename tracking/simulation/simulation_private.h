@@ -63,8 +63,9 @@ RadarMeasurement with_sigmas(const signal::RangeSpeed& place, double azimuth_rad
 RadarMeasurement measured_pair(const signal::TriangleModel& model, const RampPeaks& peaks,
                                const signal::RangeSpeed& place, const core::HighwayRadar& radar);
 
-// Of the array, in the sine of the azimuth: half-power width.
-double beam_rad(const core::HighwayRadar& radar);
+// Sines of azimuth nearer than this are one direction to the array where the weaker target has this ratio; all of them
+// to one receiver. A coded stretch, whose beats nobody has sought from samples, is taken to tell the array's beam.
+double one_direction(const core::HighwayRadar& radar, Scheme scheme, double signal_to_noise);
 
 // Coarse ranges and speeds from a chirp sequence, or from the coded flat stretch of a triangle,
 // refined by the triangle's beats.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/constants.h"
@@ -11,6 +12,7 @@
 #include "signal/fourier/fft.h"
 #include "signal/fourier/window.h"
 #include "signal/fourier/window_figures.h"
+#include "tracking/simulation/beat_waves.h"
 #include "tracking/simulation/ramp_tones.h"
 
 namespace fanbeam::tracking {
@@ -75,6 +77,27 @@ std::vector<BentPeak> places_of(const std::vector<signal::RangeSpeed>& coarse,
   return places;
 }
 
+std::vector<NearPlaces> near_places(const std::vector<RampTone>& tones,
+                                    const std::vector<BentPeak>& places,
+                                    const std::vector<signal::RangeSpeed>& coarse, double count) {
+  std::vector<NearPlaces> result;
+  for (const RampTone& one : tones) {
+    NearPlaces near{std::numeric_limits<double>::infinity(), one.bent.curvature_bins,
+                    one.bent.curvature_bins};
+    double nearest = kSeenReach_bins;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const double apart = bins_apart(one.bent.tone.bin, places[i].bin, count);
+      if (apart >= kSeenReach_bins || !(coarse[i].range_m > 0.0)) continue;
+      near.least_bend_bins = std::min(near.least_bend_bins, places[i].curvature_bins);
+      near.most_bend_bins = std::max(near.most_bend_bins, places[i].curvature_bins);
+      if (apart < nearest) near.range_m = coarse[i].range_m;
+      nearest = std::min(nearest, apart);
+    }
+    result.push_back(near);
+  }
+  return result;
+}
+
 // What the bend c of the other one of two tones leaves, d bins away: pi c (t^2 - 1/12) of its
 // amplitude, which moves a tone of the same power by up to c / (2 pi d); rms over their phases, as
 // measured. About as much of its amplitude is left beside the tone's.
@@ -95,8 +118,17 @@ struct WindowCost {
   double variance_ratio = 1.0, noise_ratio = 1.0;
 };
 
-std::vector<Beat> beats_of(const std::vector<RampTone>& found, std::size_t samples, double bin_Hz,
-                           double noise_W, const WindowCost& window) {
+// What else than noise leaves the places of tones unsure.
+std::vector<double> unknown_bins_of(const std::vector<RampTone>& found, double count) {
+  std::vector<double> bins;
+  for (const RampTone& one : found)
+    bins.push_back(std::hypot(bend_bins(one, found, count), one.bent.unsettled_bins));
+  return bins;
+}
+
+std::vector<Beat> beats_of(const std::vector<RampTone>& found,
+                           const std::vector<double>& unknown_bins, std::size_t samples,
+                           double bin_Hz, double noise_W, const WindowCost& window) {
   const auto count = static_cast<double>(samples);
   std::vector<signal::Tone> tones;
   for (const RampTone& one : found) tones.push_back(one.bent.tone);
@@ -104,18 +136,25 @@ std::vector<Beat> beats_of(const std::vector<RampTone>& found, std::size_t sampl
   std::vector<Beat> beats;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const signal::Tone& tone = found[i].bent.tone;
-    const double bin = tone.bin - count * std::floor((tone.bin + 0.5 * count) / count);
+    // A bent tone's place is that at the middle sample, half a sample before the middle of the ramp.
+    const double at_middle = tone.bin + 0.5 * found[i].bent.curvature_bins / count;
+    const double bin = at_middle - count * std::floor((at_middle + 0.5 * count) / count);
     const WindowCost cost = found[i].jointly ? WindowCost{} : window;
     const double ratio = count * tone.power / noise_W, bend = bend_bins(found[i], found, count);
     // What cannot be told is told to a bin and to a third of a beam.
-    const double sigma_bins =
-        std::min(1.0, std::hypot(std::sqrt(cost.variance_ratio * bounds[i].variance_bins2), bend,
-                                 found[i].bent.unsettled_bins));
+    const double sigma_bins = std::min(
+        1.0,
+        std::hypot(std::sqrt(cost.variance_ratio * bounds[i].variance_bins2), unknown_bins[i]));
     const double noise_ratio =
         std::min(std::max(1.0, ratio / 2.0),
                  cost.noise_ratio * bounds[i].amplitude_noise_ratio + bend * bend * ratio);
-    beats.push_back(
-        {bin * bin_Hz, sigma_bins * bin_Hz, ratio, tone.amplitudes, noise_ratio, found[i].peak});
+    const bool in_turn =
+        !found[i].jointly && std::any_of(found.begin(), found.end(), [&](const RampTone& other) {
+          return &other != &found[i] &&
+                 bins_apart(other.bent.tone.bin, tone.bin, count) < kTouching_bins;
+        });
+    beats.push_back({bin * bin_Hz, sigma_bins * bin_Hz, in_turn ? 2.0 * kStill_bins : 0.0, ratio,
+                     tone.amplitudes, noise_ratio, found[i].peak});
   }
   return beats;
 }
@@ -124,7 +163,8 @@ std::vector<Beat> beats_of(const std::vector<RampTone>& found, std::size_t sampl
 
 SampledBeats triangle_beats(const signal::FloatCube& samples, const signal::TriangleModel& model,
                             double sample_rate_Hz, double noise_W,
-                            const std::vector<signal::RangeSpeed>& coarse) {
+                            const std::vector<signal::RangeSpeed>& coarse,
+                            const ReceiverLine& line) {
   const int count = samples.shape.samples;
   // The periodic form: with the symmetric one's ends six cars take 74 ms a scan instead of 28.
   const auto weights =
@@ -153,7 +193,13 @@ SampledBeats triangle_beats(const signal::FloatCube& samples, const signal::Tria
     const std::vector<RampTone> found =
         ramp_tones(records[ramp], bins[ramp], places, alone ? std::vector<double>{} : weights,
                    noise_W, least_power);
-    beats[ramp] = beats_of(found, records[ramp].front().size(), bin_Hz, noise_W, cost);
+    const double sweep = (is_up ? 1.0 : -1.0) * model.slope_Hz_per_s * count / sample_rate_Hz /
+                         model.centre_frequency_Hz;
+    const std::vector<double> unknown_bins = unknown_bins_of(found, count);
+    beats[ramp] = by_direction(
+        {records[ramp], found, noise_W, bin_Hz, sweep, near_places(found, places, coarse, count),
+         unknown_bins},
+        line, beats_of(found, unknown_bins, records[ramp].front().size(), bin_Hz, noise_W, cost));
   });
   return {std::move(beats[up]), std::move(beats[1 - up])};
 }
