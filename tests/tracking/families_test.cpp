@@ -154,8 +154,8 @@ TEST_CASE("A coded stretch follows six cars of like speeds", "[tracker][statisti
   CHECK(false_tracks / scans <= 0.005);
 }
 
-// A hundred draws each take minutes (docs/tracking.md): MOTA 0.990, 0.989, 0.992 and 0.995, NEES 4.02, 3.80, 3.23
-// and 4.49, no switch (0.941 and 0.65 before two tones were sought in a peak and directions taken from the triangle).
+// A hundred draws each take minutes (docs/tracking.md). Before two tones were sought in a peak and directions taken from the
+// triangle MOTA was 0.941, NEES 0.65.
 TEST_CASE("From samples, the families keep their names", "[sampled][statistics]") {
   for (const auto& [name, runs] :
        {std::pair{"side by side", 6}, {"braking", 3}, {"stop and go", 2}, {"overtaking", 3}}) {
@@ -203,26 +203,19 @@ TEST_CASE("From samples, a car on a ring road is not taken for the post beside i
   CHECK(score.nees.mean() >= mean_interval(4, 2).low);  // 1.02, likewise
 }
 
-TEST_CASE("Tracks of S1 to S3 are as good as they say in all four states",
+// S4, a car on a ring around the radar and a post of the same range: within a sixth of c / (N d) of it, for a fifth of a
+// second, the two are one measurement and their tracks coast. With white acceleration along the way and beats that merged
+// within a beam 2.69.
+TEST_CASE("Tracks of S1 to S4 are as good as they say in all four states",
           "[tracker][statistics]") {
   for (const RoadFamily& scenario :
        {RoadFamily{"S1", [](int, double) { return one_stopped_car(); }},
         RoadFamily{"S2", [](int, double) { return six_vehicles(); }},
-        RoadFamily{"S3", [](int, double) { return slow_crossing(); }}}) {
+        RoadFamily{"S3", [](int, double) { return slow_crossing(); }},
+        RoadFamily{"S4", [](int, double) { return beaming(); }}}) {
     const FamilyScore score = score_of(scenario, kRuns);
     INFO(scenario.name << ": " << words_of(score));
+    CHECK(score.mota() >= 0.98);
     CHECK(in_band(score));
   }
-}
-
-// A car on a ring around the radar passes a post of the same range: within a sixth of c / (N d) of it, for a fifth of a
-// second, the two are one measurement and their tracks coast. Where turns were linearised, acceleration along the way was
-// white and beats merged within a beam it was 2.69.
-TEST_CASE("Tracks of S4 err by little less than told", "[tracker][statistics]") {
-  const FamilyScore score =
-      score_of(RoadFamily{"S4", [](int, double) { return beaming(); }}, kRuns);
-  INFO(words_of(score));
-  CHECK(score.mota() >= 0.985);
-  CHECK(score.nees.mean() >= 3.3);
-  CHECK(score.nees.mean() <= mean_interval(4, kRuns).high);
 }
