@@ -212,13 +212,16 @@ TEST_CASE("A turning car is pushed along its way alone, a crawling one forward",
   model.steering_sigma_rad_per_s = model.bend_density_rad2_per_s3 = model.along_sigma_mps2 = 0.0;
   model.along_time_s = 1e3;  // as good as constant
   model.radar_velocity_mps = {20.0, 0.0};
-  const auto spread = [&](double vx_mps, double vy_mps) {
+  const auto predicted = [&](double vx_mps, double vy_mps, int of, double variance) {
     Gaussian state;
     state.size = 11;
     state.mean = {50.0, 0.0, vx_mps - 20.0, vy_mps};
-    state.variance(8, 8) = 0.25;
+    state.variance(of, of) = variance;
     predict(model, 0.1, state);
     return state;
+  };
+  const auto spread = [&](double vx_mps, double vy_mps) {
+    return predicted(vx_mps, vy_mps, 8, 0.25);
   };
   const Gaussian moves = spread(6.0, 8.0), stands = spread(0.1, 0.2);
   CHECK(moves.variance(2, 2) == Approx(0.36 * 0.0025));
@@ -230,12 +233,7 @@ TEST_CASE("A turning car is pushed along its way alone, a crawling one forward",
   // Along the way, too, as long as it is not known: 1.5 m/s of 10, then of 2.
   model.acceleration_mps2 = 0.7;
   const auto unknown = [&](double vx_mps, double vy_mps) {
-    Gaussian state;
-    state.size = 11;
-    state.mean = {50.0, 0.0, vx_mps - 20.0, vy_mps};
-    state.variance(3, 3) = 2.25;
-    predict(model, 0.1, state);
-    return state.variance(2, 2);
+    return predicted(vx_mps, vy_mps, 3, 2.25).variance(2, 2);
   };
   CHECK(unknown(6.0, 8.0) == Approx(0.0).epsilon(0.0).margin(1e-12));
   CHECK(unknown(1.2, 1.6) == Approx(0.36 * 0.0049));

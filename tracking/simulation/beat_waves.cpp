@@ -66,6 +66,11 @@ struct Wave {
 constexpr int kOfOne = 4, kOfBoth = 2 * kOfOne;
 using Normal = Eigen::Matrix<double, kOfBoth, kOfBoth>;
 using Step = Eigen::Matrix<double, kOfBoth, 1>;
+struct PairFit {
+  std::array<Wave, 2> waves;
+  Normal normal = Normal::Zero();  // the lower half
+  double left_W = 0.0;             // of the samples
+};
 
 // The samples about a tone and two waves in them. Means over blocks: within a bin or two of the tone a wave hardly turns
 // in one, and loses the same in all of them.
@@ -86,40 +91,41 @@ class WavePair {
     }
   }
 
-  // From these places, of no amplitude; whether it ends near by.
-  bool fit(const std::array<Wave, 2>& start) {
-    waves = start;
+  // From these places, of no amplitude, if it ends near by.
+  std::optional<PairFit> fit(const std::array<Wave, 2>& start) const {
+    PairFit fit{start};
     // The amplitudes alone first: what a wave of none would be moved by is nothing.
     for (int turn = 0; turn <= kMostSteps; ++turn) {
       Step downhill;
-      make_equations(downhill);
+      make_equations(fit, downhill);
       if (turn == 0) {
         for (const int i : {2, 3, 6, 7}) {
-          normal_.row(i).setZero();
-          normal_.col(i).setZero();
-          normal_(i, i) = 1.0;
+          fit.normal.row(i).setZero();
+          fit.normal.col(i).setZero();
+          fit.normal(i, i) = 1.0;
           downhill(i) = 0.0;
         }
       }
-      const Eigen::LLT<Normal> root(normal_);
-      if (root.info() != Eigen::Success) return false;
+      const Eigen::LLT<Normal> root(fit.normal);
+      if (root.info() != Eigen::Success) return std::nullopt;
       const Step step = root.solve(downhill);
       for (int i = 0; i < 2; ++i) {
-        Wave& wave = waves[static_cast<std::size_t>(i)];
+        Wave& wave = fit.waves[static_cast<std::size_t>(i)];
         wave.amplitude += Complex(step(kOfOne * i), step(kOfOne * i + 1));
         wave.bin += step(kOfOne * i + 2);
         wave.sine += step(kOfOne * i + 3);
         const double moved_bins = wave.bin - start[static_cast<std::size_t>(i)].bin;
-        if (!(std::abs(moved_bins) < kNearBy_bins) || !(std::abs(wave.sine) < 1.0)) return false;
+        if (!(std::abs(moved_bins) < kNearBy_bins) || !(std::abs(wave.sine) < 1.0))
+          return std::nullopt;
       }
-      if (turn > 0 && std::max(std::abs(step(2)), std::abs(step(6))) < kEnded_bins) return true;
+      if (turn > 0 && std::max(std::abs(step(2)), std::abs(step(6))) < kEnded_bins) return fit;
     }
-    return false;
+    return std::nullopt;
   }
 
   // Deviations of bin and sine of each wave for this noise of a sample: the Cramer-Rao bound where it ended.
-  std::array<std::array<double, 2>, 2> sigmas(double noise_W) const {
-    const Normal inverse = normal_.llt().solve(Normal::Identity());
+  std::array<std::array<double, 2>, 2> sigmas(const PairFit& fit, double noise_W) const {
+    const Normal inverse = fit.normal.llt().solve(Normal::Identity());
     const double scale = 0.5 * noise_W / static_cast<double>(block_);
     std::array<std::array<double, 2>, 2> result{};
     for (int i = 0; i < kOfBoth; i += kOfOne)
@@ -129,22 +135,12 @@ class WavePair {
     return result;
   }
 
-  double left_W() const { return left_W_; }
-  // Where another fit to the same samples ended.
-  void take(const WavePair& other) {
-    waves = other.waves;
-    normal_ = other.normal_;
-    left_W_ = other.left_W_;
-  }
-
-  std::array<Wave, 2> waves;
-
  private:
   // Sums over blocks and channels of what the fit leaves, by how the waves change it.
-  void make_equations(Step& downhill) {
-    normal_.setZero();
+  void make_equations(PairFit& fit, Step& downhill) const {
+    fit.normal.setZero();
     downhill.setZero();
-    left_W_ = 0.0;
+    fit.left_W = 0.0;
     const auto count = static_cast<double>(samples_);
     for (std::size_t c = 0; c < blocks_.size(); ++c) {
       const double place_m = line_.elements_m[c].y;
@@ -154,7 +150,7 @@ class WavePair {
         Complex left = blocks_[c][b];
         std::array<Complex, kOfBoth> by;
         for (std::size_t i = 0; i < 2; ++i) {
-          const Wave& wave = waves[i];
+          const Wave& wave = fit.waves[i];
           const double turns = wave_turns(line_, c, wave.sine, range_m_);
           const Complex unit =
               turned(wave.bin * t + 0.5 * wave.bend_bins * t * t + turns * (1.0 + sweep_ * t));
@@ -167,12 +163,12 @@ class WavePair {
           by[kOfOne * i + 3] = turning * by_sine * (1.0 + sweep_ * t);
           left -= wave.amplitude * unit;
         }
-        left_W_ += std::norm(left);
+        fit.left_W += std::norm(left);
         for (int i = 0; i < kOfBoth; ++i) {
           const Complex conjugate = std::conj(by[static_cast<std::size_t>(i)]);
           downhill(i) += (conjugate * left).real();
           for (int j = 0; j <= i; ++j)
-            normal_(i, j) += (conjugate * by[static_cast<std::size_t>(j)]).real();
+            fit.normal(i, j) += (conjugate * by[static_cast<std::size_t>(j)]).real();
         }
       }
     }
@@ -182,8 +178,6 @@ class WavePair {
   double range_m_, sweep_;
   std::size_t samples_, block_ = 1;
   signal::ToneRecords blocks_;
-  Normal normal_;  // the lower half
-  double left_W_ = 0.0;
 };
 
 // Beats become those of two waves, in what the other tones leave.
@@ -201,16 +195,18 @@ class Splitter {
     for (std::size_t i = first; i <= last; ++i) add(ramp_.tones[i].bent, 1.0, own);
     const double range_m = ramp_.near[first].range_m;
     const BentTone& about = ramp_.tones[first].bent;
-    WavePair pair(own, about, line_, range_m, ramp_.sweep);
     const NearPlaces &one_near = ramp_.near[first], &other_near = ramp_.near[last];
     const double low = std::min(one_near.least_bend_bins, other_near.least_bend_bins);
     const double high = std::max(one_near.most_bend_bins, other_near.most_bend_bins);
-    if (!fit(start, low - about.curvature_bins, high - about.curvature_bins, pair)) return false;
-    const bool bent_alike = pair.waves[0].bend_bins == pair.waves[1].bend_bins;
-    const auto sigmas = pair.sigmas(ramp_.noise_W);
+    const WavePair pair(own, about, line_, range_m, ramp_.sweep);
+    const std::optional<PairFit> fit =
+        best_fit(pair, start, low - about.curvature_bins, high - about.curvature_bins);
+    if (!fit) return false;
+    const bool bent_alike = fit->waves[0].bend_bins == fit->waves[1].bend_bins;
+    const auto sigmas = pair.sigmas(*fit, ramp_.noise_W);
     const auto count = static_cast<double>(own.front().size());
     for (std::size_t i = 0; i < 2; ++i) {
-      const Wave& wave = pair.waves[i];
+      const Wave& wave = fit->waves[i];
       Beat& one = beats[i];
       const double bin =
           about.tone.bin + wave.bin + 0.5 * (about.curvature_bins + wave.bend_bins) / count;
@@ -233,17 +229,18 @@ class Splitter {
 
  private:
   // Two targets of different speeds bend differently, and which is which is what fits best.
-  static bool fit(std::array<Wave, 2> start, double low, double high, WavePair& pair) {
+  static std::optional<PairFit> best_fit(const WavePair& pair, std::array<Wave, 2> start,
+                                         double low, double high) {
     std::vector<std::array<double, 2>> bends = {{0.0, 0.0}};
     if (high - low > kBent_bins) bends.insert(bends.end(), {{low, high}, {high, low}});
-    std::optional<WavePair> best;
+    std::optional<PairFit> best;
     for (const auto& [first, second] : bends) {
       start[0].bend_bins = first;
       start[1].bend_bins = second;
-      if (pair.fit(start) && (!best || pair.left_W() < best->left_W())) best.emplace(pair);
+      const std::optional<PairFit> one = pair.fit(start);
+      if (one && (!best || one->left_W < best->left_W)) best = one;
     }
-    if (best) pair.take(*best);
-    return best.has_value();
+    return best;
   }
 
   const SoughtRamp& ramp_;
@@ -272,7 +269,7 @@ std::vector<Beat> by_direction(const SoughtRamp& ramp, const ReceiverLine& line,
   std::optional<Splitter> splitter;
   std::vector<Beat> result;
   for (std::size_t i = 0; i < beats.size(); ++i) {
-    const bool two_tones = ramp.tones[i].jointly && i + 1 < beats.size();
+    const bool two_tones = ramp.tones[i].jointly;
     const std::size_t last = two_tones ? i + 1 : i;
     std::optional<std::array<Wave, 2>> start;
     if (two_tones && beats[i].lone_wave && beats[last].lone_wave)
